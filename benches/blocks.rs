@@ -1,4 +1,4 @@
-//! A step of a settled rock mass over its number of blocks, on one core and on all.
+//! Time of a step of a settled rock mass for several numbers of blocks, on one core and on all cores.
 //!
 //! An iteration is a step. Times are CPU time on one core and wall time on all. `riprap bench --only rock` has the exponent
 //! of cost ∝ Nᵖ.
@@ -39,7 +39,7 @@ fn main() -> Result<(), Error> {
                 start.elapsed()
             })
         };
-        // Criterion divides by it.
+        // Criterion divides by the time, so it must not be zero.
         let least = Duration::from_nanos(1);
         group.bench_function(BenchmarkId::new("one core", count), |bencher| {
             bencher.iter_custom(|steps| on_one(steps).max(least));

@@ -1,6 +1,6 @@
-//! The boundary passes of a step on every adapter, by kind and axis: both faces across an axis of a cube.
+//! The boundary passes of a step on every adapter, by kind of boundary and axis: both faces normal to an axis of a cube.
 //!
-//! An iteration is the passes of several lattices in one submission; the rest of their steps is not timed.
+//! An iteration is the boundary passes of several lattices in one submission; the rest of their steps is not timed.
 
 mod common;
 
@@ -13,14 +13,14 @@ use riprap::{
     wgpu,
 };
 
-/// Cells an axis.
+/// Cells per axis.
 const N: u32 = 64;
-/// Lattices of which the passes are submitted together.
+/// Lattices whose passes are submitted together.
 const LATTICES: usize = 4;
-/// Lattice units: a Mach number of 0.07.
+/// Speed in lattice units: a Mach number of 0.07.
 const SPEED: f32 = 0.04;
 
-/// A face across an axis, the lower one or the upper one alike.
+/// The boundary of both faces normal to an axis.
 type Kind = fn(axis: usize) -> Face;
 
 const KINDS: [(&str, Kind); 5] = [
@@ -28,7 +28,7 @@ const KINDS: [(&str, Kind); 5] = [
     ("moving walls", |axis| {
         Face::Wall(along((axis + 1) % 3).map(f64::from))
     }),
-    // What enters by one leaves by the other.
+    // The flow enters through one face and leaves through the other.
     ("inlets", |axis| {
         Face::Velocity(vec![along(axis); (N * N) as usize])
     }),

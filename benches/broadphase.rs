@@ -1,10 +1,10 @@
-//! Finding pairs on the host, and on every adapter or the one whose name contains
+//! The broadphase on the host, and on every adapter or the one whose name contains
 //! `$RIPRAP_ADAPTER`: boxes of one size and of sizes 1:100.
 //!
-//! Times are CPU time of all threads on the host and on software adapters, wall time of the whole
-//! call, both ways of the data included, on GPUs. `riprap bench --only rock` has the exponent p of cost ∝ Nᵖ. 0.04 of it
-//! (1:100: 0.06) is no cost of the search: at the surface of a scene there are fewer pairs, and small scenes have more
-//! surface.
+//! Times are CPU time of all threads on the host and on software adapters; on GPUs wall time of the whole
+//! call, including upload and readback. `riprap bench --only rock` has the exponent p of cost ∝ Nᵖ. 0.04 of it
+//! (1:100: 0.06) is not due to the search: boxes at the surface of a scene have fewer pairs, and small scenes have
+//! relatively more surface.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{
@@ -58,7 +58,7 @@ fn measure(
     let mut group = criterion.benchmark_group(format!("broadphase/{name}"));
     for ratio in RATIOS {
         for count in COUNTS {
-            // Scenes to take in turn: branch predictors learn a short one by heart.
+            // Alternates between several scenes: branch predictors would memorise a single short one.
             let seeds = 0..(30_000 / count).max(1);
             let scenes: Vec<_> = seeds
                 .map(|seed| scattered(count, ratio, seed.into()))
@@ -76,7 +76,7 @@ fn measure(
                     }
                     let spent = watch.spent();
                     let seconds = if by_cpu { spent.cpu } else { spent.wall };
-                    // Criterion divides by it.
+                    // Criterion divides by the time, so it must not be zero.
                     Duration::from_secs_f64(seconds).max(Duration::from_nanos(1))
                 });
             });

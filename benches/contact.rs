@@ -1,7 +1,7 @@
-//! Contacts a second on one core: a settled pile with its caches, and every pair for the first time.
+//! Contacts per second on one core: a settled pile with warm caches, and every pair with an empty cache.
 //!
-//! An iteration is a step: every candidate pair once. Times are the thread's CPU time, so that other
-//! programs do not enter. At the end: what decided the pairs, and rates of pairs and contacts.
+//! An iteration is a step: every candidate pair once. Times are the CPU time of the thread, so that other
+//! programs do not affect them. At the end it prints which tests decided the pairs, and the rates of pairs and contacts.
 
 use cpu_time::ThreadTime;
 use criterion::{Criterion, Throughput};
@@ -13,10 +13,10 @@ use riprap::{
 };
 use std::time::Duration;
 
-/// Motion a step, in L and rad, of a settled pile and of a moving one.
+/// Motion per step, in L and rad, of a settled pile and of a moving one.
 const SETTLED: f64 = 1e-5;
 const MOVING: f64 = 1e-3;
-/// Steps of the motion, gone to and fro.
+/// Steps of the motion, which is repeated forwards and backwards.
 const STEPS: usize = 16;
 /// Overlap of neighbours at rest, in L.
 const OVERLAP: f64 = 1e-4;
@@ -30,7 +30,7 @@ struct Resting {
     rotation: DQuat,
 }
 
-/// Candidate pairs and where the blocks are in each step.
+/// Candidate pairs, and the blocks at their poses in each step.
 struct Pile {
     pairs: Vec<[u32; 2]>,
     steps: Vec<Vec<Placed>>,
@@ -55,7 +55,7 @@ impl Pile {
         }
     }
 
-    /// Boxes on a lattice, neighbours by face, edge and corner.
+    /// Boxes on a lattice; pairs share a face, an edge or a corner.
     fn boxes() -> Self {
         let cells = || (0..SIDE.pow(3)).map(|k| [k % SIDE, k / SIDE % SIDE, k / SIDE / SIDE]);
         let edges = DVec3::new(1.0, 0.8, 0.6);
@@ -79,7 +79,7 @@ impl Pile {
         Self::new(&blocks, pairs, SETTLED)
     }
 
-    /// Random pairs pressed together, and as many a little apart.
+    /// Random pairs with the two `gaps` alternately; a negative gap is an overlap.
     fn couples(gaps: [f64; 2], motion: f64) -> Self {
         let mut random = Random(3);
         let mut blocks = Vec::new();
@@ -98,7 +98,7 @@ impl Pile {
         Self::new(&blocks, pairs, motion)
     }
 
-    /// One step; the number of contacts.
+    /// Resolves all pairs of a step; returns the number of contacts.
     fn step(&self, resolver: &mut Resolver, caches: &mut [Cache], step: usize) -> Result<u64> {
         let cycle = step % (2 * STEPS - 2);
         let placed = &self.steps[cycle.min(2 * STEPS - 2 - cycle)];
@@ -131,7 +131,7 @@ fn measure(criterion: &mut Criterion, name: &str, pile: &Pile, options: Options,
         }
         (start.elapsed(), contacts, resolver.counts())
     };
-    // Once through the motion: solvers are built and caches filled.
+    // One full cycle of the motion builds the solvers and fills the caches.
     let (_, _, before) = run(0..2 * STEPS);
     let mut total = (Duration::ZERO, 0, before);
     let mut next = 2 * STEPS;
@@ -146,7 +146,7 @@ fn measure(criterion: &mut Criterion, name: &str, pile: &Pile, options: Options,
         });
     });
     group.finish();
-    // Not so if the command line left it out.
+    // There are no contacts if the command line excludes this bench.
     if total.1 > 0 {
         report(name, total, before);
     }

@@ -1,8 +1,8 @@
 //! Steps of free water on every adapter, or on the one whose name contains `$RIPRAP_ADAPTER`: a cube of water in a
-//! tank, of some thousand to a million particles (`$RIPRAP_PARTICLES` names other numbers of them along an edge).
+//! tank, of 20³ and 40³ particles (`$RIPRAP_PARTICLES` gives other numbers along an edge, separated by commas).
 //!
-//! Times are CPU time over the cores on software adapters, wall time on others. Pairs are those within the support,
-//! each counted once for each of its two ends, as the kernels meet them.
+//! Times are CPU time divided by the number of cores on software adapters, wall time on others. Pairs are those within the
+//! support, each counted twice, as the kernels visit them from both particles.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use kit::{
@@ -15,7 +15,7 @@ use std::time::Duration;
 
 /// Particles along an edge.
 const EDGES: [u32; 2] = [20, 40];
-/// Steps between two looks at the clock.
+/// Steps between two readings of the clock.
 const STEPS: u32 = 4;
 
 fn main() -> Result<(), riprap::Error> {

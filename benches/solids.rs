@@ -1,4 +1,4 @@
-//! Blocks in the fluid on every adapter: their solid fractions, the step by operator, and the sums of loads.
+//! Blocks in the fluid on every adapter: solid fractions, the fluid step with each operator, and the sums of loads.
 
 mod common;
 
@@ -21,11 +21,11 @@ use riprap::{
 };
 use std::sync::Arc;
 
-/// Cells an axis.
+/// Cells per axis.
 const N: u32 = 64;
-/// Blocks along an axis: their bricks are nearly all.
+/// Blocks along an axis: they reach nearly all bricks.
 const BLOCKS: u32 = 4;
-/// Cells across a block, about.
+/// Approximate number of cells across a block.
 const ACROSS: f64 = 10.0;
 
 const OPERATORS: [(&str, SolidOperator); 3] = [
@@ -73,7 +73,7 @@ fn polyhedron(shape: Polyhedron) -> Arc<Shape> {
     Arc::new(shape.into())
 }
 
-/// A polyhedron of so many faces about a sphere, their normals on a spiral (Saff & Kuijlaars 1997).
+/// A polyhedron of `faces` faces around a sphere, with normals on a spiral (Saff & Kuijlaars 1997).
 fn round(faces: u32) -> Result<Polyhedron, Error> {
     let normals = (0..faces).map(|n| {
         let z = 1.0 - (2.0 * f64::from(n) + 1.0) / f64::from(faces);
@@ -90,7 +90,7 @@ fn round(faces: u32) -> Result<Polyhedron, Error> {
     Ok(Polyhedron::from_half_spaces(&faces)?.0)
 }
 
-/// Blocks of one shape in a cubic array, turned, in a flow that moves.
+/// Rotated blocks of one shape in a cubic array, in a flow.
 struct World {
     device: wgpu::Device,
     queue: wgpu::Queue,
@@ -109,7 +109,7 @@ impl World {
         let mut setup = adapter.setup(N);
         setup.solid_operator = Some(operator);
         if adapter.processor == Processor::Gpu {
-            // Bricks follow what the setup has.
+            // The choice of bricks depends on the operator.
             setup.suit_gpu();
         }
         let state = sheared_noise(&setup)?;
@@ -148,7 +148,7 @@ impl World {
         Ok(world)
     }
 
-    /// Moves all blocks to and fro, by as little as leaves them in their tiles.
+    /// Moves all blocks back and forth, so little that their tiles stay the same.
     fn place(&mut self) -> Result<(), Error> {
         self.turn += 1;
         let pitch = f64::from(N / BLOCKS);
@@ -186,7 +186,7 @@ fn voxelise(adapter: &mut Adapter<'_>, name: &str, shape: &Arc<Shape>) -> Result
     Ok(())
 }
 
-/// The loads on whole blocks and on their faces, as a step takes them.
+/// The sums of the loads on blocks and on their faces, as in a step.
 fn loads(adapter: &mut Adapter<'_>, shape: &Arc<Shape>) -> Result<(), Error> {
     let world = World::new(adapter, SolidOperator::Holdych, shape)?;
     let work = Throughput::Elements(world.tile_cells());
@@ -197,7 +197,7 @@ fn loads(adapter: &mut Adapter<'_>, shape: &Arc<Shape>) -> Result<(), Error> {
     Ok(())
 }
 
-/// Both sums by themselves, over blocks of so many tiles that half of the cells of each has solid.
+/// Each of the two sums of loads alone, over blocks of 64 tiles in which half of the cells contain solid.
 fn sums(adapter: &mut Adapter<'_>) -> Result<(), Error> {
     const OF_BLOCK: u32 = 64;
     let device = adapter.device.clone();

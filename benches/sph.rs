@@ -1,5 +1,5 @@
-//! The sort and the sums of free water on every adapter, each by itself: a cube of water whose particles have been moved off
-//! their lattice, open on all sides. `benches/particles.rs` has whole steps.
+//! The sort and the sums of free water on every adapter, each alone: a cube of water, open on all sides, whose particles have
+//! been displaced from a lattice. `benches/particles.rs` measures whole steps.
 
 mod common;
 
@@ -18,7 +18,7 @@ use riprap::{
 
 /// Particles along an edge.
 const EDGE: u32 = 40;
-/// Entries of a list: more than a particle has neighbours.
+/// Capacity of a neighbour list, larger than any number of neighbours.
 const CAPACITY: u32 = 512;
 
 fn main() -> Result<(), Error> {
@@ -62,7 +62,7 @@ fn bench(adapter: &mut Adapter<'_>, neighbours: NeighbourSearch) -> Result<(), E
             mapped_at_creation: false,
         })
     };
-    // Every step sorts and makes lists.
+    // Stale: every step sorts and rebuilds the lists.
     let clock = buffer(bytemuck::bytes_of(&Clock {
         step: 0.1,
         remaining: 1e6,
@@ -115,7 +115,7 @@ fn bench(adapter: &mut Adapter<'_>, neighbours: NeighbourSearch) -> Result<(), E
     let own = buffers.iter().map(|(name, buffer)| (*name, buffer));
     let named: Vec<_> = own.chain(lists).collect();
     let constants = constants(&setup, &grid);
-    // In their order: each reads what those before it have left.
+    // The order matters: each kernel reads the results of those before it.
     for kernel in ["neighbour_lists", "accelerate", "drift"] {
         let has_lists = neighbours == NeighbourSearch::Lists;
         if kernel == "neighbour_lists" && !has_lists {

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""What GPU compilers make of every kernel, without a GPU: registers, spills, waves, instructions, latency.
+"""Compiles every kernel for GPUs without a GPU and reports registers, spills, waves, instructions and latency.
 
-Links each kernel as a scene on a GPU would (harness/kit/examples/gpu_kernels.rs) and compiles it with RADV, Mesa's
-driver for AMD, which makes pipelines for chips that are not there. Prints a table and compares it with the kept record;
+Links each kernel as for a scene on a GPU (harness/kit/examples/gpu_kernels.rs) and compiles it with RADV, Mesa's
+driver for AMD, which creates pipelines for chips that are not present. Prints a table and compares it with the record;
 fails on any spill, on fewer waves, and on more than 5 % more instructions.
 
     harness/gpu_compilers.py [--keep] [--kernels FOLDER] [--isa FOLDER] [PATTERN]
 
---keep writes the record; --kernels takes the files of a folder for those of the library; --isa writes what the chips
-would run; PATTERN makes only the kernels whose names it matches, as in step_*.
+--keep writes the record; --kernels replaces files of the library by those of a folder; --isa writes the machine code
+of each kernel; PATTERN selects kernels by name, as in step_*.
 """
 import argparse
 import concurrent.futures
@@ -24,16 +24,16 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 TARGET = os.path.join(ROOT, os.environ.get("CARGO_TARGET_DIR", "target"))
 RECORD = os.path.join(ROOT, "harness/results/gpu_compilers.json")
-# RDNA2, RDNA3, and GCN, of which CDNA is a descendant.
+# RDNA2, RDNA3, and GCN, the predecessor of CDNA.
 CHIPS = ["NAVI21", "NAVI31", "VEGA20"]
-# Kept of each, with the driver's name for it; spills are the sum of the registers of both kinds.
+# Statistics in the record, with their names in the driver; spills are the sum over both kinds of registers.
 KEPT = {"registers": "VGPRs", "waves": "Subgroups per SIMD", "instructions": "Instructions", "latency": "Latency"}
 SPILLS = ("Spilled VGPRs", "Spilled SGPRs")
 MOST_INSTRUCTIONS = 1.05
 
 
 def struct(kind, *fields):
-    """A structure of Vulkan, made from its fields: its type and the next one come first."""
+    """Constructor of a Vulkan structure with the given fields after sType and pNext."""
     own = [("sType", c.c_uint32), ("pNext", c.c_void_p), *fields]
     made = type("Made", (c.Structure,), {"_fields_": own})
     return lambda **values: made(sType=kind, **values)
@@ -66,7 +66,7 @@ UNIFORM, STORAGE = 6, 7
 
 
 class Driver:
-    """RADV as the loader of Vulkan would see it, for the chip that RADV_FORCE_FAMILY names."""
+    """RADV, called as the Vulkan loader calls it, for the chip that RADV_FORCE_FAMILY names."""
 
     def __init__(self, library):
         self.get = c.CDLL(library).vk_icdGetInstanceProcAddr
@@ -104,7 +104,7 @@ class Driver:
         return result.value
 
     def list(self, name, of, kind, number):
-        """What a function that is called twice returns: the count, then the items."""
+        """The items of a Vulkan function that is called twice, for the count and for the items."""
         count = U32()
         self.call(name, PTR(self.device), c.byref(of), c.byref(count), None)
         items = (kind * count.value)(*[kind(sType=number) for _ in range(count.value)])
@@ -112,7 +112,7 @@ class Driver:
         return items
 
     def compile(self, code, entry, bindings, isa):
-        """The statistics of a kernel, by the driver's names, and its instructions if they are wanted."""
+        """The statistics of a kernel, by their names in the driver, and its machine code if `isa` is set."""
         bound = (Binding * len(bindings))(*[
             Binding(n, UNIFORM if uniform else STORAGE, 1, COMPUTE, None) for n, uniform in bindings])
         sets = c.c_uint64(self.made("vkCreateDescriptorSetLayout", set_info(count=len(bindings), bindings=c.addressof(bound))))
@@ -137,7 +137,7 @@ class Driver:
 
 
 def chip_main(library, folder, chip, pattern, isa):
-    """One chip, in a process of its own: prints the version and the rows as JSON."""
+    """Compiles for one chip, in a process of its own; prints the version and the rows as JSON."""
     driver = Driver(library)
     with open(os.path.join(folder, "index.json")) as file:
         index = json.load(file)
@@ -154,10 +154,10 @@ def chip_main(library, folder, chip, pattern, isa):
         rows[name]["spills"] = sum(found[kind] for kind in SPILLS)
     json.dump({"driver": driver.version, "rows": rows}, sys.stdout)
     sys.stdout.flush()
-    os._exit(0)  # A device without hardware is not torn down.
+    os._exit(0)  # Skips the teardown of the device, which has no hardware.
 
 
-# Downloads what is not installed with lavapipe, whose libraries RADV needs too; installs nothing.
+# Downloads packages and installs nothing; RADV also needs the libraries that are installed with lavapipe.
 UNPACK = """
 printf 'deb http://deb.debian.org/debian bookworm-backports main\\n' >list
 mkdir -p lists/partial
@@ -172,8 +172,8 @@ for package in *.deb; do dpkg -x "$package" .; done
 
 
 def radv():
-    """The driver's library, Debian's of one version for all machines, unpacked into the target folder; None if it cannot
-    be downloaded or loaded."""
+    """Path of the driver's library from Debian, the same version on all machines, unpacked into the target folder; None if
+    it cannot be downloaded or loaded."""
     unpacked = os.path.join(TARGET, "radv")
     library = unpacked + "/usr/lib/*/libvulkan_radeon.so"
     if not glob.glob(library):
@@ -200,7 +200,7 @@ def compiled(library, folder, chip, pattern, isa):
 
 
 def worse(name, chip, now, before):
-    """What the comparison with the record fails on."""
+    """Failures of the comparison with the record."""
     where = f"{name} on {chip}"
     if now["spills"] > 0:
         yield f"{where}: {now['spills']} registers are spilled"
@@ -223,7 +223,7 @@ def main():
         return 0
     folder = os.path.join(TARGET, "gpu_kernels")
     shutil.rmtree(folder, ignore_errors=True)
-    # The whole workspace, so that nothing is compiled again with fewer features.
+    # The whole workspace, so that nothing is recompiled with fewer features.
     build = ["cargo", "build", "--quiet", "--workspace", "--example", "gpu_kernels"]
     subprocess.run(build, cwd=ROOT, check=True)
     example = [os.path.join(TARGET, "debug/examples/gpu_kernels"), folder]

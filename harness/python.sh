@@ -1,6 +1,6 @@
 #!/bin/sh
-# Prepares <target>/python, the environment in which tests read files back with VTK itself.
-# Quiet, and does nothing where it is ready already.
+# Prepares <target>/python, the environment in which tests read output files with VTK.
+# Prints nothing, and does nothing if the environment is ready.
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 venv=${CARGO_TARGET_DIR:-$root/target}/python
@@ -12,5 +12,5 @@ raise SystemExit(version('vtk') != '$vtk')" 2>/dev/null && exit 0
 
 mkdir -p "$(dirname -- "$venv")"
 python3 -m venv --clear "$venv"
-# VTK's readers need none of its dependencies, which are for plots.
+# VTK's readers do not need its dependencies, which are for plots.
 "$venv/bin/python" -m pip --quiet --disable-pip-version-check install --no-deps "vtk==$vtk"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Runs a scene, the block plucked from its bed if none is named; all else goes to `riprap run`.
+# Runs a scene, by default plucking.toml; all arguments go to `riprap run`.
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/harness/environment.sh"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what riprap needs and this machine lacks: a linker, and where no Vulkan driver works Mesa's
-# software one, lavapipe. With --tests Python's venv too; with --adapters also the other software
-# adapters: OpenGL over EGL, and SwiftShader in <target>/swiftshader. Says so, and does nothing else.
+# Installs missing requirements of riprap: a linker, and, if no Vulkan driver works, Mesa's software Vulkan
+# driver lavapipe. With --tests also Python's venv; with --adapters also the other software
+# adapters: OpenGL over EGL, and SwiftShader in <target>/swiftshader. Prints what it installs.
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 scratch=$(mktemp -d)
@@ -12,7 +12,7 @@ if ! command -v cargo >/dev/null; then
     exit 1
 fi
 
-# as_root [-n] COMMAND...: -n fails where sudo would ask for a password.
+# as_root [-n] COMMAND...: with -n it fails instead of asking for a password.
 as_root() {
     if [ "$(id -u)" -eq 0 ]; then
         [ "$1" != -n ] || shift
@@ -22,7 +22,7 @@ as_root() {
     fi
 }
 
-# install [-n] PACKAGE...: false where that fails or is impossible, with the reason in $reason.
+# install [-n] PACKAGE...: returns false if the installation fails or is impossible, with the reason in $reason.
 install() {
     local ask=()
     if [ "$1" = -n ]; then
@@ -61,7 +61,7 @@ fi
 
 [ "$(uname -s)" = Linux ] || exit 0 # Metal and Direct3D come with the system.
 
-# works vulkan|egl: whether a driver of it finds a device.
+# works vulkan|egl: whether a driver of this API finds a device.
 cc -o "$scratch/probe" "$root/harness/probe.c" -ldl
 works() { timeout 60 "$scratch/probe" "$1" 2>/dev/null; }
 
@@ -87,7 +87,7 @@ target=${CARGO_TARGET_DIR:-$root/target}
 [[ $target == /* ]] || target=$root/$target
 driver=$target/swiftshader
 [ ! -e "$driver/vk_swiftshader_icd.json" ] || exit 0
-# Debian has SwiftShader in Chromium: two files of the package are all that is needed.
+# Debian ships SwiftShader in a package of Chromium, of which only two files are needed.
 mkdir -p "$driver"
 cd "$scratch"
 echo "riprap: unpacking SwiftShader from chromium-common"

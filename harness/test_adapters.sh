@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs the tests of kernels, limits and faults on the other software adapters: OpenGL (llvmpipe over EGL) and
-# SwiftShader, which has 10 storage buffers and 256 invocations a workgroup; and those of coupled scenes with the kernels
-# that a GPU gets, on the first adapter. A line for each says how many tests ran there.
+# SwiftShader, which has 10 storage buffers and 256 invocations per workgroup; and the tests of scenes, on the first
+# adapter, with the kernels for GPUs. Prints the number of tests of each run.
 set -euo pipefail
 root=$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root"
@@ -12,7 +12,7 @@ target=${CARGO_TARGET_DIR:-target}
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 
-# A test program, and the modules or names of its tests.
+# Each line: a test program, and modules or names of its tests.
 filters=(
     "gpu lost_device:: memory:: timer::"
     "lattice divergence_guard::s kernels:: limits::"
@@ -25,8 +25,8 @@ filters=(
     "records cases::kernels"
 )
 
-# run_tests PROGRAM NAME...: its tests whose names contain one of the names. The whole workspace, so that nothing is
-# compiled again with fewer features.
+# run_tests PROGRAM NAME...: runs the tests of the program whose names contain one of the names. Uses --workspace, so that
+# nothing is recompiled with fewer features.
 run_tests() {
     local program=$1
     shift
@@ -37,7 +37,7 @@ run_tests() {
     fi
 }
 
-# run_filters WHERE FILTER...: the tests of the filters in the present environment.
+# run_filters WHERE FILTER...: runs the tests of the filters in the current environment.
 run_filters() {
     local where=$1 filter ran total=0 start=$SECONDS
     shift
@@ -54,7 +54,7 @@ run_filters() {
     echo "$where: $total tests of kernels, limits and faults passed in $((SECONDS - start)) s"
 }
 
-# on ADAPTER DRIVER: the tests on the adapter of that name, with that Vulkan driver alone.
+# on ADAPTER DRIVER: runs all filters on the adapter of this name, with only this Vulkan driver.
 on() {
     RIPRAP_ADAPTER=$1 VK_DRIVER_FILES=$2 run_filters "$1" "${filters[@]}"
 }

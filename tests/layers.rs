@@ -1,4 +1,4 @@
-//! The top modules of the library form layers: none needs, over others or directly, a module that needs it.
+//! The top modules of the library form layers: none depends, directly or via others, on a module that depends on it.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::{
@@ -7,13 +7,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// The tokens of a source, comments aside.
+/// The tokens of a source without comments.
 fn tokens(source: &str) -> Vec<TokenTree> {
     let stream: TokenStream = source.parse().expect("Rust");
     without_tests(stream)
 }
 
-/// The tokens without the items of tests: what follows `#[cfg(test)]` up to its end.
+/// The tokens without test items: those after `#[cfg(test)]` up to the end of the item.
 fn without_tests(stream: TokenStream) -> Vec<TokenTree> {
     let mut kept = Vec::new();
     let mut tokens = stream.into_iter();
@@ -38,7 +38,7 @@ fn is_word(token: Option<&TokenTree>, word: &str) -> bool {
     matches!(token, Some(TokenTree::Ident(found)) if found == word)
 }
 
-/// The tokens behind `::` at the start.
+/// The tokens after a leading `::`.
 fn behind_path(tokens: &[TokenTree]) -> Option<&[TokenTree]> {
     let is_colon = |token: &TokenTree| matches!(token, TokenTree::Punct(p) if p.as_char() == ':');
     match tokens {
@@ -47,7 +47,7 @@ fn behind_path(tokens: &[TokenTree]) -> Option<&[TokenTree]> {
     }
 }
 
-/// The first names at the start: one, or all of a tree in braces.
+/// The leading names: one, or all those of a tree in braces.
 fn first_names(tokens: &[TokenTree]) -> Vec<String> {
     match tokens.first() {
         Some(TokenTree::Ident(name)) => vec![name.to_string()],
@@ -60,7 +60,7 @@ fn first_names(tokens: &[TokenTree]) -> Vec<String> {
     }
 }
 
-/// Adds the names at the root of the crate that tokens use; `depth` is the number of modules from the root to them.
+/// Adds the names at the root of the crate that `tokens` use; `depth` is the module depth of the tokens.
 fn add_root_names(tokens: &[TokenTree], depth: usize, names: &mut Vec<String>) {
     let mut i = 0;
     while i < tokens.len() {
@@ -108,10 +108,10 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// What each module uses, and a file in which it does.
+/// Modules used by each module, each with a file that uses it.
 type Uses = BTreeMap<String, BTreeMap<String, PathBuf>>;
 
-/// The uses of the top modules under `src`. Names that `lib.rs` exports from a module count as that module.
+/// The uses of the top modules under `src`. Names that `lib.rs` re-exports from a module count as that module.
 fn uses(src: &Path) -> Uses {
     let root = tokens(&fs::read_to_string(src.join("lib.rs")).unwrap());
     let mut homes = BTreeMap::new();
@@ -200,7 +200,7 @@ fn top_modules_have_no_cycle() {
     assert!(cycle.is_none(), "a cycle of modules:\n{}", cycle.unwrap());
 }
 
-/// The adapters from scenes to the setups of engines are in one place.
+/// Only one module adapts scenes to the setups of engines.
 #[test]
 fn scenes_use_engines_in_build_only() {
     let src = library();

@@ -1,7 +1,7 @@
-//! A program that uses blocks and contact without any GPU.
+//! Uses blocks and contact without any GPU.
 //!
-//! Five dominoes stand on a floor; the first is pushed for a moment. The program tells when each one
-//! falls, and where the energy went: if it does not add up, the program fails.
+//! Five dominoes stand on a floor; the first is pushed for a moment. The program prints when each one falls, and the
+//! energy balance: if it does not close, the program fails.
 //!
 //! `cargo run --release -p riprap-harness --example dry_blocks`
 
@@ -19,7 +19,7 @@ const COUNT: usize = 5;
 const APART: f64 = 0.4;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // Shapes are shared by all blocks that have them.
+    // Blocks of the same shape share it.
     let cuboid = |edges| Polyhedron::cuboid(edges).map(|shape| Arc::new(Shape::from(shape)));
     let floor = cuboid(DVec3::new(6.0, 2.0, 0.2))?;
     let domino = cuboid(DOMINO)?;

@@ -1,9 +1,8 @@
-//! A program with a wgpu device of its own that has riprap compute a flow beside its own kernel.
+//! Lets riprap compute a flow on the wgpu device of the host program, together with its own kernel.
 //!
-//! Taylor–Green vortices decay in a periodic box. After every few steps a kernel of this program
-//! reads the velocity where riprap left it, on the device, and adds the kinetic energy up: flow
-//! and kernel go into one encoder, and nothing is read back until the end. The energy must decay
-//! as exp(-4νk²t); otherwise the program fails.
+//! Taylor–Green vortices decay in a periodic box. After every few steps a kernel of this program reads the velocity from
+//! riprap's buffer on the device and sums the kinetic energy: flow and kernel share one encoder, and nothing is read back
+//! until the end. The energy must decay as exp(-4νk²t); otherwise the program fails.
 //!
 //! `cargo run --release -p riprap-harness --example embed`
 
@@ -19,12 +18,12 @@ const CELLS: [u32; 3] = [32, 32, 4];
 const NU: f64 = 0.02;
 /// Largest speed at the start, lattice units: a Mach number of 0.035.
 const SPEED: f64 = 0.02;
-/// Steps between two looks at the energy.
+/// Steps between two evaluations of the energy.
 const EVERY: usize = 20;
-/// Looks at the energy: at the end a tenth of it is left.
+/// Evaluations of the energy: at the end a tenth of it is left.
 const LOOKS: usize = 40;
 
-/// One invocation adds up one row of cells; the host adds the rows.
+/// One invocation sums one row of cells; the host sums the rows.
 const ENERGY: &str = "
 @group(0) @binding(0) var<storage, read> u: array<f32>;
 @group(0) @binding(1) var<storage, read> v: array<f32>;
@@ -103,7 +102,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "{name}: the energy decays at {found:.6e} a step, {exact:.6e} is exact, {:+.2} %",
         100.0 * (found / exact - 1.0)
     );
-    // The lattice is of second order: (k Δx)²/12 = 0.3 % with 32 cells a wave.
+    // The lattice is of second order: (k Δx)²/12 = 0.3 % with 32 cells per wave.
     if (found / exact - 1.0).abs() < 0.02 {
         Ok(())
     } else {
@@ -164,7 +163,7 @@ fn energy_kernel(
     (pipeline, bind)
 }
 
-/// Waits for the device, at most a minute, and reads what it has written.
+/// Waits for the device, at most a minute, and reads the buffer.
 fn read(device: &wgpu::Device, buffer: &wgpu::Buffer) -> Result<Vec<f32>, Box<dyn Error>> {
     let (send, receive) = mpsc::channel();
     buffer.map_async(wgpu::MapMode::Read, .., move |mapped| {

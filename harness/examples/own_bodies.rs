@@ -1,10 +1,10 @@
-//! A program with rigid bodies and a loop of its own that has riprap put them into a fluid.
+//! Couples rigid bodies of the host program, with its own time loop, to a fluid of riprap.
 //!
-//! A tetrahedron and a ball of rock are let go in water at rest. This program moves them itself, by the simplest
-//! integrator there is; of riprap it uses the lattice, the solid fractions, the partially saturated cells and the sums
-//! of what the fluid does to the bodies. Three things make forces on rock of these sums: its buoyancy, since the water
-//! here has no weight; the mean of two steps; and the inertia of the fluid inside the body's cells, which it gets
-//! back. The ball must set out as theory has it, and with it the water around it; otherwise the program fails.
+//! A tetrahedron and a ball of rock are released in water at rest. This program moves them itself, by the simplest
+//! integrator; from riprap it uses the lattice, the solid fractions, the partially saturated cells and the sums of the
+//! loads of the fluid on the bodies. Three steps turn these sums into forces on rock: adding its buoyancy, since the water
+//! here has no weight; averaging over two steps; and removing the inertia of the fluid inside the body's cells. The ball
+//! must start as in theory, with its added mass of water; otherwise the program fails.
 //!
 //! `cargo run --release -p riprap-harness --example own_bodies`
 
@@ -22,7 +22,7 @@ use std::{error::Error, sync::Arc, time::Duration};
 
 /// Cells along x, y, z.
 const CELLS: [u32; 3] = [64, 32, 32];
-/// One centimetre, a hundredth of a second, and water.
+/// A cell of one centimetre, a time step of a hundredth of a second, and water.
 const UNITS: Units = Units {
     cell: 0.01,
     time_step: 0.01,
@@ -35,7 +35,7 @@ const GRAVITY: DVec3 = DVec3::new(0.0, 0.0, -0.2);
 const STEPS: usize = 40;
 const BALL_DENSITY: f64 = 2650.0;
 
-/// What this program knows of a body; it would be a body of some physics engine.
+/// State of a body; in an application, a body of a physics engine.
 struct Body {
     shape: Arc<Shape>,
     mass: f64,
@@ -142,7 +142,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     });
     let mut cells = SolidCells::new(&device, &lattice, frame, solids.collect())?;
 
-    // The water has no weight of its own: its pressure is counted from the hydrostatic one.
+    // The water has no weight of its own: its pressure is relative to the hydrostatic one.
     let ambient = Ambient {
         density: UNITS.density,
         acceleration: std::array::from_fn(|_| Formula::number(0.0)),
@@ -168,7 +168,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
 
-    // Half of its volume of water goes along with a ball.
+    // The added mass of a ball is half of the water it displaces.
     let heavier = BALL_DENSITY - UNITS.density;
     let rate = heavier / (BALL_DENSITY + 0.5 * UNITS.density) * GRAVITY.z;
     let exact = rate * STEPS as f64 * UNITS.time_step;
@@ -179,7 +179,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         -found,
         -exact
     );
-    // Viscosity, and the images of the ball in a box of three diameters.
+    // The tolerance covers viscosity and the periodic images of the ball in a box of three diameters.
     if (found / exact - 1.0).abs() < 0.1 {
         Ok(())
     } else {

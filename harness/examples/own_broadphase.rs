@@ -1,8 +1,8 @@
-//! A program that plugs in a broadphase of its own.
+//! Plugs a custom broadphase into riprap.
 //!
-//! Blocks that lie in a row along x need no grid: sorted by their lower corner, each has only to look at
-//! those that begin before it ends. The list is the same as riprap's own, and so are the bits of the
-//! blocks; otherwise the program fails.
+//! Blocks in a row along x need no grid: sorted by their lower corner, each is only tested against those that begin before
+//! it ends. The list equals that of riprap's own broadphase, and the states of the blocks are bitwise equal; otherwise the
+//! program fails.
 //!
 //! `cargo run --release -p riprap-harness --example own_broadphase`
 
@@ -19,12 +19,12 @@ use std::{error::Error, sync::Arc};
 /// Sweep and prune along x.
 #[derive(Default)]
 struct Sweep {
-    /// How often it was asked.
+    /// Number of calls.
     calls: u32,
 }
 
 impl Broadphase for Sweep {
-    // Nothing here waits; a finder on a device would.
+    // Nothing here waits; a broadphase on a device would.
     async fn pairs(&mut self, items: &[Aabb]) -> riprap::Result<Vec<[u32; 2]>> {
         self.calls += 1;
         let mut order: Vec<usize> = (0..items.len()).collect();
@@ -36,7 +36,7 @@ impl Broadphase for Sweep {
                 .iter()
                 .take_while(|&&j| items[j].min[0] <= end)
             {
-                // Items of one group never pair: parts of one block, and all that is fixed.
+                // Items of one group never pair: the parts of one block, and all fixed blocks.
                 if items[i].group != items[j].group && items[i].overlaps(&items[j]) {
                     pairs.push([i.min(j) as u32, i.max(j) as u32]);
                 }

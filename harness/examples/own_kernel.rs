@@ -1,8 +1,7 @@
-//! A kernel of one's own, linked with files of riprap and run on one's own buffers.
+//! Links a custom kernel with files of riprap and runs it on custom buffers.
 //!
-//! For many cells it computes the populations of an equilibrium from density and velocity, with
-//! the equilibrium in a slot. Their sums must be the density and the momentum again; otherwise the
-//! program fails.
+//! For many cells it computes the populations of an equilibrium from density and velocity; a slot selects the equilibrium.
+//! The sums of the populations must reproduce density and momentum; otherwise the program fails.
 //!
 //! `cargo run -p riprap-harness --example own_kernel`
 
@@ -16,7 +15,7 @@ use std::time::Duration;
 
 const CELLS: usize = 1000;
 
-/// A name behind `needs` is a file of riprap, one with a dollar sign a slot.
+/// After `needs`, a plain name is a file of riprap, and a name with a dollar sign a slot.
 const FILL: &str = "// Populations f - w of each cell, from its velocity (xyz) and density (w).
 // needs $lanes, moments, velocity, $equilibrium
 
@@ -81,7 +80,7 @@ fn main() -> Result<()> {
             .map(|(state, f)| error(*state, f))
             .fold(0.0, f64::max);
         println!("{equilibrium}: density and momentum to {worst:.1e}");
-        // 27 populations below 0.3, each rounded to 2^-24 of itself in a few operations.
+        // 27 populations below 0.3, each with a rounding error of 2^-24 of itself in a few operations.
         ensure!(worst < 1e-6, "density or momentum is not that of the state");
     }
     Ok(())

@@ -1,8 +1,8 @@
-//! A program with a wgpu device and an encoder of its own that has riprap compute free water.
+//! Lets riprap compute free water with the wgpu device and encoder of the host program.
 //!
-//! A column of water stands in a tank, behind nothing: it falls and runs along the floor. The steps go into this
-//! program's encoder, and the particles are read where riprap left them, in its units. After a while the front must
-//! be farther than water gets without pressure and nearer than √(2 g H) lets it be; otherwise the program fails.
+//! A column of water in a tank collapses and runs along the floor. The steps go into this program's encoder, and the
+//! particles are read from riprap's buffer in its units. After a while the front must be farther than it gets without
+//! pressure and nearer than at the speed √(2 g H); otherwise the program fails.
 //!
 //! `cargo run --release -p riprap-harness --example own_water`
 
@@ -16,7 +16,7 @@ use riprap::{
 use riprap_harness::gpu;
 use std::error::Error;
 
-/// Distance of particles, m; the column is 10 wide and 20 high.
+/// Particle spacing, m; the column is 10 particles wide and 20 high.
 const SPACING: f64 = 0.05;
 const COLUMN: [i32; 2] = [10, 20];
 /// Simulated time, s.
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         deformation_rate: DMat3::ZERO,
     };
 
-    // As many steps as it may take: those after the end of the time do nothing.
+    // The largest number of steps that the time may take; those after its end do nothing.
     particles.begin(&queue, &[place], TIME)?;
     let most = (2.0 * TIME / particles.setup().acoustic_step()).ceil() as usize;
     for _ in 0..most.div_ceil(50) {

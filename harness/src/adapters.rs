@@ -1,4 +1,4 @@
-//! `riprap adapters`: what there is to compute on.
+//! `riprap adapters`: lists the devices to compute on.
 
 use crate::{gpu, print};
 use anyhow::Result;
@@ -14,7 +14,7 @@ pub struct Args {
     json: bool,
 }
 
-/// An adapter, and what a scene can ask of it.
+/// An adapter and its limits.
 #[derive(Debug, Serialize)]
 pub struct Adapter {
     /// Name of the device.
@@ -27,7 +27,7 @@ pub struct Adapter {
     pub kind: String,
     /// Whether it computes on the CPU.
     pub software: bool,
-    /// Whether it is the one that is used where none is named.
+    /// Whether it is used when no adapter is named.
     pub default: bool,
     /// Limits that decide what fits.
     pub limits: Limits,
@@ -49,7 +49,7 @@ pub struct Limits {
 }
 
 impl Adapter {
-    /// What `adapter` says of itself.
+    /// The properties that `adapter` reports.
     pub fn of(adapter: &wgpu::Adapter, default: bool) -> Self {
         let (info, limits) = (adapter.get_info(), adapter.limits());
         Self {
@@ -75,7 +75,7 @@ impl Adapter {
 /// Prints the adapters.
 ///
 /// # Errors
-/// If there is none: what to install.
+/// If there is none; the message says what to install.
 pub fn run(args: &Args) -> Result<()> {
     let found = gpu::adapters();
     if found.is_empty() {

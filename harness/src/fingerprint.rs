@@ -1,4 +1,4 @@
-//! `riprap fingerprint`: checksums of what small scenes write, to see whether a change of the code keeps the bits.
+//! `riprap fingerprint`: checksums of the output of small scenes, to check that a change of the code leaves it bitwise equal.
 //!
 //! Each array of a VTK file has a checksum of its own, and each table one of its text. Summaries, pictures and
 //! checkpoints are skipped: they hold times, fonts and formats that may change while results do not.
@@ -43,7 +43,7 @@ struct Record {
     sums: Sums,
 }
 
-/// What is read of an earlier record: the last bits depend on adapter and driver, too.
+/// The parts of an earlier record that are compared; the last bits also depend on adapter and driver.
 #[derive(Deserialize)]
 struct Earlier {
     machine: BTreeMap<String, serde_json::Value>,
@@ -59,7 +59,7 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<bool> {
     let machine = Machine::of(&gpu::pick(args.adapter.as_deref())?.get_info());
     let temporary = std::env::temp_dir().join(format!("riprap_fingerprint_{}", std::process::id()));
     let sums = fingerprints(args, &temporary, stop);
-    // What remains in a temporary folder is no reason to fail.
+    // A temporary folder that cannot be removed is no error.
     let _ = fs::remove_dir_all(&temporary);
     let record = Record {
         machine,
@@ -147,7 +147,7 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
-/// Runs `scene` into `folder` and adds the checksums of what it wrote.
+/// Runs `scene` into `folder` and adds the checksums of the files written.
 fn fingerprint(
     scene: &Path,
     folder: &Path,

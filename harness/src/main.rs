@@ -1,4 +1,4 @@
-//! `riprap`: computes scenes and tells about them.
+//! `riprap`: runs scenes and reports on them.
 
 use clap::{Parser, Subcommand};
 use riprap::Error;
@@ -77,11 +77,11 @@ fn passed(all: bool) -> ExitCode {
     ExitCode::from(u8::from(!all))
 }
 
-/// Has the first Ctrl-C stop what runs, and the second one end it.
+/// Makes the first Ctrl-C stop the run after its batch, and the second one end the process.
 fn listen() -> anyhow::Result<()> {
     ctrlc::set_handler(|| {
         if STOP.swap(true, Ordering::Relaxed) {
-            // As a shell reports a process that SIGINT killed.
+            // The exit code that shells report for a process killed by SIGINT.
             std::process::exit(130);
         }
         eprintln!("stopping after this batch; Ctrl-C again ends at once");

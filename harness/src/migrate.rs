@@ -17,7 +17,7 @@ pub struct Args {
     check: bool,
 }
 
-/// Rewrites the file; whether nothing is left to rewrite.
+/// Rewrites the file. Returns `false` only if `--check` finds old keys.
 ///
 /// # Errors
 /// If the file cannot be read or written, is not TOML, or has both an old key and its new name.

@@ -2,10 +2,10 @@
 
 use std::io::{ErrorKind, Write};
 
-/// Prints `text`; a reader that has seen enough, such as `head`, is no error.
+/// Prints `text`; a reader that closes the pipe early, such as `head`, is no error.
 ///
 /// # Errors
-/// If standard output takes nothing.
+/// If standard output cannot be written.
 pub fn print(text: &str) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -17,7 +17,7 @@ pub fn print(text: &str) -> anyhow::Result<()> {
 /// Prints `value` as JSON.
 ///
 /// # Errors
-/// If standard output takes nothing.
+/// If standard output cannot be written.
 pub fn print_json(value: &impl serde::Serialize) -> anyhow::Result<()> {
     print(&(serde_json::to_string_pretty(value)? + "\n"))
 }
@@ -35,7 +35,7 @@ pub fn bytes(bytes: u64) -> String {
     format!("{value:.digits$} {}", units[at])
 }
 
-/// `seconds` in the unit that one would say.
+/// `seconds` in a unit that suits its size.
 pub fn duration(seconds: f64) -> String {
     match seconds {
         s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
@@ -46,7 +46,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// A part as a percentage with two or three digits that count.
+/// A fraction as a percentage with two or three significant digits.
 pub fn percent(part: f64) -> String {
     let value = 100.0 * part;
     match value {

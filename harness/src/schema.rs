@@ -10,7 +10,7 @@ pub struct Args {}
 /// Prints the schema.
 ///
 /// # Errors
-/// If standard output takes nothing.
+/// If standard output cannot be written.
 pub fn run(_: &Args) -> Result<()> {
     print::print_json(&riprap::scene::Scene::schema())
 }

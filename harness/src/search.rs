@@ -1,4 +1,4 @@
-//! Where pairs of blocks without a fluid are searched, and the place of an error in a scene.
+//! The adapter for the broadphase of scenes without a fluid, and the line of an error in a scene file.
 
 use crate::gpu;
 use riprap::{
@@ -13,11 +13,11 @@ use riprap::{
 };
 use std::path::Path;
 
-/// The adapter on which the pairs of the blocks of `scene` are searched, the one called `name` or the best one; `None` for
-/// a search on the host.
+/// The adapter for the broadphase of `scene`: the one called `name`, or the best one. `None` if the broadphase runs on
+/// the host.
 ///
 /// # Errors
-/// If the scene wants one and there is none.
+/// If the scene requires an adapter and there is none.
 pub fn adapter(
     scene: &Scene,
     blocks: &BlockSetup,
@@ -29,7 +29,7 @@ pub fn adapter(
         Search::Device => gpu::pick(name).map(Some),
         Search::Host => Ok(None),
         Search::Auto => {
-            // No adapter is looked for where none would be used.
+            // Adapters are only enumerated if one could be used.
             let from = |processor| {
                 let given = scene.rock.broadphase_crossover;
                 parts >= given.unwrap_or(AutoBroadphase::crossover_on(processor))
@@ -52,7 +52,7 @@ pub fn located(error: Error, file: &Path) -> Error {
     }
 }
 
-/// What is missing of rock masses, a line for each.
+/// The pieces left out of rock masses, one line per mass.
 pub fn left_out(all: &[LeftOut]) -> impl Iterator<Item = String> {
     let line = |lost: &LeftOut| {
         format!(

@@ -8,9 +8,9 @@ use std::{fmt, sync::Arc};
 
 /// Variables that a formula may use, in the order of the arguments of [`Formula::eval`].
 pub const VARIABLES: [&str; 4] = ["x", "y", "z", "t"];
-/// Position of the time in [`VARIABLES`].
+/// Index of the time in [`VARIABLES`].
 const TIME: u8 = 3;
-/// Most values that an evaluation holds at once; the parser refuses deeper nesting.
+/// Largest depth of the evaluation stack; the parser refuses deeper nesting.
 const STACK: usize = 64;
 
 /// One step of a formula in postfix order.
@@ -20,14 +20,14 @@ enum Op {
     Variable(u8),
     Unary(fn(f64) -> f64),
     Binary(fn(f64, f64) -> f64),
-    /// In the series of this number.
+    /// Linear interpolation in the series with this index.
     Interpolate(u16),
 }
 
-/// Places and values, places ascending.
+/// Points of a piecewise linear function: abscissa and value, abscissas ascending.
 type Series = Arc<[[f64; 2]]>;
 
-/// The value at `place`, linear between the points of a series and constant beyond them.
+/// Value of a series at the abscissa `place`: linear between its points, constant beyond them.
 fn interpolate(series: &[[f64; 2]], place: f64) -> f64 {
     let after = series.partition_point(|[x, _]| *x <= place);
     match (
@@ -104,22 +104,22 @@ impl Formula {
         self.eval(at[0], at[1], at[2], t)
     }
 
-    /// Whether the value changes with time.
+    /// Whether the value depends on the time.
     pub fn uses_time(&self) -> bool {
         self.uses(|index| index == TIME)
     }
 
-    /// Whether the value changes from place to place.
+    /// Whether the value depends on the position.
     pub fn uses_place(&self) -> bool {
         self.uses(|index| index != TIME)
     }
 
-    /// Whether the value is the same everywhere and always.
+    /// Whether the value depends on neither position nor time.
     pub fn is_constant(&self) -> bool {
         !self.uses(|_| true)
     }
 
-    /// The value, where it is the same everywhere and always.
+    /// The value, if it depends on neither position nor time.
     pub fn constant(&self) -> Option<f64> {
         self.is_constant().then(|| self.eval(0.0, 0.0, 0.0, 0.0))
     }
@@ -160,9 +160,9 @@ impl fmt::Display for Formula {
     }
 }
 
-/// The text of a formula in a message: its beginning, where it is long.
+/// Text of a formula for a message, truncated if it is long.
 fn shown(text: &str) -> std::borrow::Cow<'_, str> {
-    /// Longest text that is shown whole, characters.
+    /// Longest text that is shown in full, characters.
     const MOST: usize = 200;
     match text.char_indices().nth(MOST) {
         Some((end, _)) => format!("{}…", &text[..end]).into(),
@@ -170,15 +170,15 @@ fn shown(text: &str) -> std::borrow::Cow<'_, str> {
     }
 }
 
-/// Why a text is not a formula.
+/// Error for a text that is not a valid formula.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("formula `{}`, character {column}: {message}", shown(text))]
 pub struct FormulaError {
     /// The text.
     pub text: String,
-    /// Where, counted from 1.
+    /// Position of the error: character, counted from 1.
     pub column: usize,
-    /// What is wrong there.
+    /// What is wrong at this character.
     pub message: String,
 }
 

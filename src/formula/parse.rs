@@ -1,4 +1,4 @@
-//! Recursive descent from text to postfix operations, and the functions and constants that a text may name.
+//! Recursive-descent parser from text to postfix operations, with the functions and constants that it knows.
 //!
 //! ```text
 //! sum    = term  { ("+" | "-") term }
@@ -209,7 +209,7 @@ impl Parser<'_> {
         self.close()
     }
 
-    /// An argument, and points as pairs of numbers.
+    /// Parses the argument of `interpolate` and its points, which are pairs of numbers.
     fn interpolate(&mut self) -> Result<(), FormulaError> {
         self.at += "interpolate".len();
         if !self.take('(') {
@@ -245,7 +245,7 @@ impl Parser<'_> {
         self.close()
     }
 
-    /// A number, or a formula without variables.
+    /// Parses a number or a formula without variables.
     fn fixed(&mut self) -> Result<f64, FormulaError> {
         let before = self.ops.len();
         self.sum()?;
@@ -256,11 +256,11 @@ impl Parser<'_> {
         };
         match own.constant().filter(|value| value.is_finite()) {
             Some(value) => Ok(value),
-            None => Err(self.error("a point of `interpolate` is of finite numbers")),
+            None => Err(self.error("the points of `interpolate` are finite numbers")),
         }
     }
 
-    /// The operations, if an evaluation never holds more than [`STACK`] values.
+    /// Returns the operations if their evaluation never holds more than [`STACK`] values.
     fn bounded(self) -> Result<(Vec<Op>, Vec<Series>), FormulaError> {
         let mut depth = 0_usize;
         let mut most = 0;
@@ -328,7 +328,7 @@ fn sign(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value.signum() }
 }
 
-/// `f64::min` drops a NaN; here it must be seen by whoever samples the formula.
+/// Minimum that propagates NaN, unlike `f64::min`, so that the caller detects an invalid value.
 fn least(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
@@ -337,7 +337,7 @@ fn least(a: f64, b: f64) -> f64 {
     }
 }
 
-/// See [`least`].
+/// Maximum that propagates NaN; see [`least`].
 fn greatest(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN

@@ -1,4 +1,4 @@
-//! Formulas in the text of scenes.
+//! Deserialization and JSON schema of formulas in scenes.
 
 use super::Formula;
 use serde::de::{Deserialize, Deserializer, Visitor};

@@ -1,39 +1,39 @@
-//! A convex cell in the making: planes, vertices and rings, cut by one plane after another.
+//! A convex cell under construction: planes, vertices and rings, clipped by one plane after another.
 //!
-//! Volume, centroid and inertia of what closed triangles enclose, exact up to rounding: the sum over
-//! signed tetrahedra from the origin (Tonon 2004, J. Math. Stat. 1:8; the same integrals as Mirtich
-//! 1996, J. Graph. Tools 1:31).
+//! Volume, centroid and inertia of the region that triangles enclose, exact up to rounding: the sum over signed
+//! tetrahedra from the origin (Tonon 2004, J. Math. Stat. 1:8; the same integrals as Mirtich 1996, J. Graph. Tools
+//! 1:31).
 
 use super::{HalfSpace, bounding_box, pose::outer};
 use glam::{DMat3, DVec3};
 
-/// Part of a cell's size within which a vertex counts as on a plane: a thousand times the rounding of
-/// its coordinates, so that the verdict does not hang on them.
+/// Distance, relative to the size of a cell, within which a vertex counts as on a plane: a thousand times the
+/// rounding of its coordinates, so that rounding does not decide the classification.
 pub(super) const ON: f64 = 1e-12;
 
-/// Where a face comes from: a face of the box that a cell starts from.
+/// Source of the faces of the box from which a cell starts.
 pub(super) const START: u32 = u32::MAX;
 
 /// A face of a cell.
 #[derive(Clone, Debug)]
 pub(super) struct Facet {
     pub plane: HalfSpace,
-    /// What the caller knows the plane by, or [`START`].
+    /// Identifier of the plane, given by the caller, or [`START`].
     pub source: u32,
     /// Vertices, counter-clockwise seen from outside.
     pub ring: Vec<u32>,
 }
 
-/// Where the plane of a cut meets an edge, and the facets on both sides of that.
+/// Intersection of the cutting plane with an edge, and the facets on both sides of the edge.
 struct Crossing {
     edge: [u32; 2],
     facets: [usize; 2],
 }
 
-/// Volume spanned by three unit normals below which they fix no point well.
+/// Smallest triple product of three unit normals for which the common point of the planes is well defined.
 pub(super) const PARALLEL: f64 = 1e-6;
 
-/// A convex cell. Vertices that no ring names any more are NaN until the next [`Cell::compact`].
+/// A convex cell. Vertices that no ring uses any more are NaN until the next [`Cell::compact`].
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     pub vertices: Vec<DVec3>,
@@ -41,19 +41,19 @@ pub(super) struct Cell {
     dead: usize,
 }
 
-/// What a plane leaves of a cell.
+/// Part of a cell that remains after clipping by a plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Clip {
-    /// All of it: no vertex is outside, and the plane is redundant.
+    /// The whole cell: no vertex is outside, and the plane is redundant.
     All,
     /// Nothing: no vertex is inside.
     Nothing,
-    /// A part; the plane is now a face.
+    /// A part of the cell; the plane is now a face.
     Part,
 }
 
 impl Cell {
-    /// A cell that is closed and convex.
+    /// A cell from vertices and facets, which must be closed and convex.
     pub fn new(vertices: Vec<DVec3>, facets: Vec<Facet>) -> Self {
         Self {
             vertices,
@@ -84,11 +84,10 @@ impl Cell {
         Self::new((0..8).map(vertex).collect(), facets)
     }
 
-    /// Cuts away what is outside `plane`; vertices nearer than `on` (m) count as on it.
+    /// Removes the part outside `plane`; vertices nearer to the plane than `on` (m) count as on it.
     ///
-    /// The rim of what is left of the old faces is the ring of the new one, so that the surface stays
-    /// closed whatever the rounding. Should rounding make the rim more than one ring, the cut is
-    /// taken again with more vertices on the plane.
+    /// The rim of the clipped faces becomes the ring of the new face, so that the surface stays closed despite
+    /// rounding. If rounding splits the rim into more than one ring, the cut is repeated with a larger `on`.
     pub fn clip(&mut self, plane: HalfSpace, source: u32, on: f64) -> Clip {
         let heights: Vec<f64> = self.vertices.iter().map(|v| plane.height(*v)).collect();
         // Comparisons with the NaN of dead vertices are false: they are neither outside nor inside.
@@ -107,20 +106,20 @@ impl Cell {
         }
     }
 
-    /// Both sides of a plane, if it divides the cell: inside, with `plane` as the last face, and outside,
-    /// with its exact opposite. The vertices of the section are the same bits in both.
+    /// Both parts of the cell if the plane divides it: the inner one, with `plane` as its last face, and the outer
+    /// one, with the exactly opposite plane. The vertices of the section are bitwise equal in both.
     pub fn split(&self, plane: HalfSpace, source: u32, on: f64) -> Option<(Self, Self)> {
         let mut inside = self.clone();
         if inside.clip(plane, source, on) != Clip::Part {
             return None;
         }
         let mut outside = self.clone();
-        // Heights are exactly opposite, and so the verdicts are the same.
+        // Heights are exactly opposite, so vertices are classified in the same manner.
         outside.clip(plane.opposite(), source, on);
         Some((inside, outside))
     }
 
-    /// Whether it went well; nothing has changed if not.
+    /// Clips the cell and returns true; returns false, without changes, if the rim is not one ring.
     fn cut(&mut self, plane: HalfSpace, source: u32, on: f64, heights: &[f64]) -> bool {
         let outside = |v: u32| heights[v as usize] > on;
         let inside = |v: u32| heights[v as usize] < -on;
@@ -196,8 +195,8 @@ impl Cell {
         true
     }
 
-    /// Where an edge meets the plane: where its two facets do. Between its ends instead if those are
-    /// nearly parallel; from ends to ends, errors would add up.
+    /// Intersection of an edge with the plane, as the common point of the plane and the two facets of the edge. If
+    /// these planes are nearly parallel, interpolates along the edge; always doing so would accumulate errors.
     fn crossing(&self, crossing: &Crossing, plane: &HalfSpace, heights: &[f64]) -> DVec3 {
         let [a, b] = crossing.edge.map(|v| self.vertices[v as usize]);
         let [ha, hb] = crossing.edge.map(|v| heights[v as usize]);
@@ -206,7 +205,7 @@ impl Cell {
         meet([p, q, *plane], between).unwrap_or(between)
     }
 
-    /// Drops the vertices that no ring names.
+    /// Drops the vertices that no ring uses.
     pub fn compact(&mut self) {
         let mut new = vec![u32::MAX; self.vertices.len()];
         let mut kept = Vec::with_capacity(self.vertices.len());
@@ -227,13 +226,13 @@ impl Cell {
         self.vertices.iter().copied().filter(|v| !v.is_nan())
     }
 
-    /// Lower and upper corner of the box around it.
+    /// Lower and upper corner of the bounding box.
     pub fn bounds(&self) -> [DVec3; 2] {
         bounding_box(self.live())
     }
 
-    /// Moves each vertex of a compact cell to where three of its planes meet, chosen to span the most.
-    /// While a cell is cut, a vertex stays where the first three met, however flat the angle.
+    /// Moves each vertex of a compact cell to the common point of three of its planes, chosen by `widest`. While a
+    /// cell is cut, a vertex keeps the common point of its first three planes, however flat their angle.
     pub(super) fn settle(&mut self) {
         let count = self.vertices.len();
         let mut ends = vec![0_usize; count + 1];
@@ -260,7 +259,7 @@ impl Cell {
         }
     }
 
-    /// Its moments about `origin`.
+    /// Volume integrals about `origin`.
     pub(super) fn moments(&self, origin: DVec3) -> Moments {
         let at = |v: u32| self.vertices[v as usize] - origin;
         Moments::of(self.facets.iter().flat_map(|facet| {
@@ -269,7 +268,7 @@ impl Cell {
         }))
     }
 
-    /// The centroid of a compact cell; none if it has no volume.
+    /// The centroid of a compact cell; `None` if the cell has no volume.
     pub(super) fn centroid(&self) -> Option<DVec3> {
         let middle = self.vertices.iter().sum::<DVec3>() / self.vertices.len() as f64;
         let moments = self.moments(middle);
@@ -278,7 +277,7 @@ impl Cell {
     }
 }
 
-/// The ring that runs against all of `rim`; none if that is more or less than one ring.
+/// The ring of the edges of `rim`, each in reverse; `None` if they are not exactly one ring.
 fn chain(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
     let [end, start] = *rim.first()?;
     let mut ring = vec![start];
@@ -293,7 +292,7 @@ fn chain(rim: &[[u32; 2]]) -> Option<Vec<u32>> {
     (ring.len() == rim.len() && ring.len() >= 3).then_some(ring)
 }
 
-/// The two planes at the widest angle and the third that spans the most with them.
+/// The two planes nearest to a right angle, and the third with the largest triple product with them.
 fn widest(planes: &[HalfSpace]) -> Option<[HalfSpace; 3]> {
     if let [p, q, r] = planes {
         return Some([*p, *q, *r]);
@@ -309,8 +308,8 @@ fn widest(planes: &[HalfSpace]) -> Option<[HalfSpace; 3]> {
     Some([*p, *q, *third])
 }
 
-/// Where three planes meet, from a point `near` it so that distances are small; none if they are nearly
-/// parallel to one line.
+/// The common point of three planes, computed from a point `near` it so that distances are small; `None` if the
+/// planes are nearly parallel to one line.
 pub(super) fn meet([p, q, r]: [HalfSpace; 3], near: DVec3) -> Option<DVec3> {
     let across = p.normal.cross(q.normal);
     let det = across.dot(r.normal);
@@ -325,14 +324,14 @@ pub(super) fn meet([p, q, r]: [HalfSpace; 3], near: DVec3) -> Option<DVec3> {
 /// ∫dV, ∫x dV and ∫x xᵀ dV.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moments {
-    /// m³.
+    /// Volume, m³.
     pub volume: f64,
     first: DVec3,
     second: DMat3,
 }
 
 impl Moments {
-    /// Of triangles counter-clockwise seen from outside, m from a point near their middle.
+    /// Moments of the region enclosed by triangles: counter-clockwise seen from outside, m from a point near their middle.
     pub fn of(triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
         let nothing = Self {
             volume: 0.0,

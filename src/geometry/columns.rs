@@ -1,14 +1,15 @@
-//! Parts of unit cells that lie below triangles: the solid fractions of a grid, exact but for rounding.
+//! Volumes of unit cells below triangles: the solid fractions of a grid, exact up to rounding.
 
 use glam::DVec3;
 
-/// A polygon of at most three corners and one more for each of six cuts.
+/// Corners of a clipped triangle.
 type Polygon = Vec<DVec3>;
 
-/// The volume of each cell below `triangles` (in cells, from the lower corner of the grid), column by column along z: of a triangle that
-/// is counter-clockwise seen from above what lies below counts, of the others it counts negative. So a closed surface, seen
-/// from outside, has 1 in its cells, and a surface of heights what is below it. `found` gets the place of a column in x and y, its
-/// cells, and the area over which triangles cover it.
+/// Computes the volume of each cell that lies below `triangles` (in cells, from the lower corner of the grid), one column along
+/// z after another. The volume below a triangle counts as positive if the triangle is counter-clockwise seen from above,
+/// otherwise as negative. So a closed surface, oriented outwards, gives 1 in the cells inside, and a height surface gives the
+/// volume below it. `found` receives the indices of a column in x and y, the volumes of its cells, and the area that triangles
+/// cover.
 pub(crate) fn volumes_below(
     triangles: &[[DVec3; 3]],
     [nx, ny, nz]: [u32; 3],
@@ -40,7 +41,7 @@ pub(crate) fn volumes_below(
     }
 }
 
-/// Adds what lies below a triangle over the unit square to the cells of its column; returns the area over which it does.
+/// Adds the volume below a triangle, clipped to the unit square, to the cells of its column; returns the clipped area in plan.
 fn add_triangle(corners: &[DVec3; 3], volumes: &mut [f64]) -> f64 {
     let mut polygon = corners.to_vec();
     for (axis, sign, at) in [
@@ -73,7 +74,7 @@ fn add_triangle(corners: &[DVec3; 3], volumes: &mut [f64]) -> f64 {
     area
 }
 
-/// What a function that is linear leaves of a polygon where it is not negative.
+/// Part of a polygon where the linear function `inside` is not negative.
 fn clipped(polygon: &[DVec3], inside: impl Fn(&DVec3) -> f64) -> Polygon {
     let mut left = Vec::with_capacity(polygon.len() + 1);
     for (n, here) in polygon.iter().enumerate() {
@@ -89,7 +90,7 @@ fn clipped(polygon: &[DVec3], inside: impl Fn(&DVec3) -> f64) -> Polygon {
     left
 }
 
-/// The triangles of a convex polygon, each with its area seen from above, positive where they are counter-clockwise.
+/// The triangles of a convex polygon, each with its area seen from above, positive if it is counter-clockwise.
 fn fan(polygon: &[DVec3]) -> impl Iterator<Item = (f64, [DVec3; 3])> + '_ {
     let pairs = polygon.get(1..).unwrap_or_default().windows(2);
     pairs.map(|pair| {
@@ -105,7 +106,7 @@ fn area_of(polygon: &[DVec3]) -> f64 {
     fan(polygon).map(|(area, _)| area).sum()
 }
 
-/// The volume between the height `from` and a polygon, where it is higher.
+/// Volume between the height `from` and the part of a polygon above it.
 fn above(polygon: &[DVec3], from: f64) -> f64 {
     let higher = clipped(polygon, |p| p.z - from);
     fan(&higher)
@@ -172,7 +173,7 @@ mod tests {
         volumes_below(&triangles, cells, |[x, y], volumes, covered| {
             assert!((covered - 1.0).abs() < 1e-12);
             for (z, volume) in volumes.iter().enumerate() {
-                // The midpoint rule on 400 columns a side.
+                // The midpoint rule on 400 × 400 columns.
                 let n = 400;
                 let mut sum = 0.0;
                 for j in 0..n {

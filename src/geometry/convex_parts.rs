@@ -1,7 +1,7 @@
-//! Convex parts of a solid: its space is divided (a binary space partition, Fuchs, Kedem & Naylor 1980,
-//! SIGGRAPH 14:124) until what is in each cell is convex, or nearly so.
+//! Convex parts of a solid: space is divided (a binary space partition, Fuchs, Kedem & Naylor 1980, SIGGRAPH 14:124)
+//! until the solid in each cell is convex, or nearly so.
 //!
-//! Cells do not overlap, and so neither do the parts. A part holds all of the solid that is in its cell.
+//! Cells do not overlap, and neither do the parts. A part contains all of the solid in its cell.
 
 use super::{
     Form, HalfSpace, Part, Polyhedron, Shape, bounding_box,
@@ -15,17 +15,17 @@ use crate::{
 use glam::DVec3;
 use std::path::Path;
 
-/// Most parts: a compound of more is slow in contact.
+/// Largest number of parts: contact is slow for compounds of more parts.
 const PARTS: usize = 64;
 
-/// Faces that are tested for concavity of a mesh, before its hull is made to find out.
+/// Number of faces tested for concavity before the hull of a mesh is computed.
 const SAMPLE: usize = 200;
 
 /// A mesh about its centroid.
 pub(super) struct Mesh {
     pub triangles: TriangleMesh,
     winding: WindingTree,
-    /// Length that is rounding, m.
+    /// Lengths below this are rounding, m.
     tolerance: f64,
 }
 
@@ -42,7 +42,7 @@ impl Mesh {
         }
     }
 
-    /// Whether some of its faces show it to be concave, by more than rounding.
+    /// Whether a sample of the faces shows that the mesh is concave by more than rounding.
     pub fn hollow(&self) -> bool {
         let polygons = Polygon::all(&self.triangles, self.tolerance);
         let faces = some(&polygons, SAMPLE).filter(|p| p.broad);
@@ -54,15 +54,15 @@ impl Mesh {
         faces.into_iter().any(over)
     }
 
-    /// Whether a cell that no face crosses is inside.
+    /// Whether a cell that no face crosses is inside the mesh.
     fn holds(&self, cell: &mut Cell) -> bool {
         cell.compact();
         cell.centroid().is_some_and(|c| self.winding.at(c) > 0.5)
     }
 }
 
-/// The parts and their centroids (m), which may stand out from the solid by `deviation` (m); none if it
-/// would take too many.
+/// Convex parts of a mesh and their centroids (m). The parts may protrude from the solid by `deviation` (m); `None`
+/// if more than [`PARTS`] would be needed.
 pub(super) fn convex_parts(mesh: &Mesh, deviation: f64) -> Option<Vec<(Polyhedron, DVec3)>> {
     let size = mesh
         .triangles
@@ -93,7 +93,7 @@ pub(super) fn convex_parts(mesh: &Mesh, deviation: f64) -> Option<Vec<(Polyhedro
             Err(plane) => plane,
         };
         let (behind, before) = divide(polygons, &plane, mesh.tolerance);
-        // A plane that did not divide the cell would be chosen for ever.
+        // A plane that does not divide the cell would be chosen again and again.
         let (inner, outer) = cell.split(plane, 0, on)?;
         open.push((outer, before));
         open.push((inner, behind));
@@ -101,8 +101,8 @@ pub(super) fn convex_parts(mesh: &Mesh, deviation: f64) -> Option<Vec<(Polyhedro
     Some(parts)
 }
 
-/// What the planes of the faces leave of a cell, moved out so that all faces are behind all planes; none
-/// if that is nothing. Or the plane of a face that has solid before it, beyond all faces: of a dent.
+/// Clips a cell by the planes of its faces, each moved out so that all faces are behind it; `None` if nothing
+/// remains. The error is the plane of a face with solid in front of it and beyond all faces, that is, of a dent.
 fn convex(
     mesh: &Mesh,
     cell: &Cell,
@@ -130,8 +130,8 @@ fn convex(
     Ok(Some(left))
 }
 
-/// The hull of a finished cell, faces being one where the mesh's rounding parts them; none if there is
-/// nothing of it but rounding.
+/// The hull of a finished cell. Faces that differ only by the rounding of the mesh are merged; `None` if the cell is
+/// flat up to rounding.
 fn part(mut cell: Cell, tolerance: f64) -> Option<(Polyhedron, DVec3)> {
     cell.compact();
     let [min, max] = cell.bounds();
@@ -139,27 +139,27 @@ fn part(mut cell: Cell, tolerance: f64) -> Option<(Polyhedron, DVec3)> {
     Polyhedron::hull(&cell.vertices, coplanar).ok()
 }
 
-/// Part of a mesh's size that is rounding: STL files and many programs know coordinates to f32 (6e-8).
+/// Rounding of coordinates relative to the size of a mesh: STL files and many programs store f32 (6e-8).
 pub(super) const ROUNDING: f64 = 1e-6;
 
-/// Volume of a mesh that is flat, as part of its size cubed: less than a block of 1 × 3e-5 × 3e-5.
+/// Volume over the cube of the size below which a mesh is flat: above that of a block of 1 × 3e-5 × 3e-5.
 const FLAT: f64 = 1e-9;
 
-/// Relative difference of volumes that [`ROUNDING`] explains: six faces of a box, and some.
+/// Relative difference of volumes that [`ROUNDING`] explains: six faces of a box, with a margin.
 const SAME: f64 = 1e-5;
 
-/// By how much convex parts may stand out from a mesh, as part of its size, tried from the left: exact
-/// parts where there are few concave edges, near ones where there are many.
+/// Distances by which convex parts may protrude from a mesh, relative to its size, tried from the left: exact parts
+/// for few concave edges, approximate ones for many.
 const DEVIATIONS: [f64; 7] = [ROUNDING, 0.002, 0.005, 0.01, 0.02, 0.03, 0.05];
 
-/// Most by which the volume of a mesh and the sum of its convex parts may differ.
+/// Largest relative difference between the volume of a mesh and that of its convex parts.
 const UNLIKE: f64 = 0.05;
 
 impl Shape {
-    /// Reads a closed mesh from an STL or OBJ file; its unit becomes `scale` m. See [`Shape::from_mesh`].
+    /// Reads a closed mesh from an STL or OBJ file whose unit is `scale` (m). See [`Shape::from_mesh`].
     ///
     /// # Errors
-    /// If the scale is not positive, the file cannot be read, or the mesh is no block.
+    /// If the scale is not positive, the file cannot be read, or the mesh is not valid as a block.
     pub fn read(path: &Path, scale: f64) -> Result<(Self, DVec3)> {
         positive("scale", scale)?;
         let mesh = TriangleMesh::read(path, scale, [0.0; 3])?;
@@ -169,15 +169,15 @@ impl Shape {
         })
     }
 
-    /// The solid that a closed mesh encloses, and its centroid (m), which becomes the origin. A convex
-    /// mesh becomes one polyhedron, faces within 1e-6 of the size on one plane being one. Any other
-    /// becomes a compound of at most 64 convex parts that do not overlap: exact ones if it has few concave
-    /// edges, else parts that hold all of it and stand out from it by at most 5 % of its size and 5 % of
-    /// its volume, by less where 64 suffice for less. Volume, centroid and inertia are those of the mesh
-    /// itself, exact, whatever the parts. A mesh of 10⁴ triangles takes seconds, one of 4·10⁴ a minute.
+    /// The solid that a closed mesh encloses, and its centroid (m), which becomes the origin. A convex mesh becomes
+    /// one polyhedron; faces within 1e-6 of the size of one plane are merged. Any other mesh becomes a compound of at
+    /// most 64 convex parts that do not overlap. The parts are exact if the mesh has few concave edges. Otherwise
+    /// they contain the mesh and protrude from it by at most 5 % of its size and 5 % of its volume, or by less if 64
+    /// parts suffice. Volume, centroid and inertia are exactly those of the mesh, whatever the parts. A mesh of 10⁴
+    /// triangles takes seconds, one of 4·10⁴ a minute.
     ///
     /// # Errors
-    /// If the mesh is open, inverted, flat, or no solid, or convex parts do not come near enough to it.
+    /// If the mesh is open, inverted, flat or crosses itself, or if convex parts do not approximate it well enough.
     pub fn from_mesh(mesh: &TriangleMesh) -> Result<(Self, DVec3)> {
         let refuse = |message: String| Error::argument("mesh", message);
         let count = mesh.vertices.len();
@@ -197,7 +197,7 @@ impl Shape {
         let middle = (min + max) / 2.0;
         let first = moments(middle);
         let volume = first.volume;
-        // Not true either if there is no triangle, and the size is not a number.
+        // Also false without triangles, when the size is not finite.
         let thick = volume.abs() > FLAT * size.powi(3);
         if !thick {
             return Err(refuse(format!(
@@ -252,13 +252,13 @@ impl Shape {
     }
 }
 
-/// Faces whose planes are tried for a cut, and by which cuts are judged.
+/// Number of faces whose planes are tried as cuts and by which cuts are rated.
 const FACES: usize = 48;
 
-/// Corners by which cuts are judged.
+/// Number of corners by which cuts are rated.
 const CORNERS: usize = 192;
 
-/// Thickness of a triangle, in roundings, from which its plane is known well enough to cut by.
+/// Height of a triangle, in units of the tolerance, from which its plane is accurate enough for a cut.
 const BROAD: f64 = 100.0;
 
 /// A piece of a face.
@@ -266,12 +266,12 @@ const BROAD: f64 = 100.0;
 pub(super) struct Polygon {
     pub plane: HalfSpace,
     pub corners: Vec<DVec3>,
-    /// Whether its plane is known well.
+    /// Whether its plane is accurate enough for a cut.
     pub broad: bool,
 }
 
 impl Polygon {
-    /// The triangles of a mesh, but for those without area.
+    /// The triangles of a mesh, without those that have no area.
     pub fn all(mesh: &TriangleMesh, tolerance: f64) -> Vec<Self> {
         let polygon = |index: usize| {
             let [a, b, c] = mesh.corners(index);
@@ -292,11 +292,11 @@ impl Polygon {
     }
 }
 
-/// A plane that divides what is not convex: of all that are tried, the one that leaves the least height of
-/// corners above faces on its own sides. None if no face has corners more than `deviation` (m) above it.
+/// The best plane to divide a cell that is not convex: the candidate with the least sum of heights of corners above
+/// faces on the same side. `None` if no face has corners more than `deviation` (m) above it.
 fn best_cut(polygons: &[Polygon], deviation: f64, tolerance: f64) -> Option<HalfSpace> {
     let concave = |p: &&Polygon| p.broad && polygons.iter().any(|o| o.rises(&p.plane, deviation));
-    // Some faces here and there; all of them only if none of those will do.
+    // First a sample of the faces; all of them only if the sample has no concave face.
     let mut faces: Vec<&Polygon> = some(polygons, 4 * FACES).filter(concave).collect();
     if faces.is_empty() {
         faces = polygons.iter().filter(concave).collect();
@@ -323,7 +323,7 @@ fn best_cut(polygons: &[Polygon], deviation: f64, tolerance: f64) -> Option<Half
         let divided = polygons
             .iter()
             .filter(|p| p.rises(plane, tolerance) && p.rises(&plane.opposite(), tolerance));
-        // Dividing all faces costs a tenth of what all concave ones may rise.
+        // Dividing all faces costs a tenth of `deviation` for each concave face.
         let price = 0.1 * divided.count() as f64 / polygons.len() as f64;
         left(1.0) + left(-1.0) + price * faces.len() as f64 * deviation
     };
@@ -333,8 +333,8 @@ fn best_cut(polygons: &[Polygon], deviation: f64, tolerance: f64) -> Option<Half
     Some(*best.0)
 }
 
-/// Planes across the axes, at quarters of the box around the faces: for round hollows, whose own planes
-/// only graze them.
+/// Planes normal to the axes, at quarters of the bounding box of the faces: for round hollows, which the planes of
+/// their own faces only graze.
 fn across(polygons: &[Polygon]) -> impl Iterator<Item = HalfSpace> {
     let [min, max] = bounding_box(polygons.iter().flat_map(|p| &p.corners).copied());
     let planes = DVec3::AXES.into_iter().flat_map(move |axis| {
@@ -347,12 +347,12 @@ fn across(polygons: &[Polygon]) -> impl Iterator<Item = HalfSpace> {
     })
 }
 
-/// At most `count` of `all`, evenly.
+/// At most `count` of `all`, evenly spaced.
 pub(super) fn some<T>(all: &[T], count: usize) -> impl Iterator<Item = &T> {
     all.iter().step_by(all.len().div_ceil(count).max(1))
 }
 
-/// The faces behind a plane and before it; those on it are sides of the two cells from now on.
+/// The faces behind a plane and in front of it, without those on it, which now bound the two cells.
 pub(super) fn divide(
     polygons: Vec<Polygon>,
     plane: &HalfSpace,

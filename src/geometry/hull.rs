@@ -1,9 +1,9 @@
-//! Polyhedra from points: their convex hull, by duality.
+//! The convex hull of points, by duality.
 //!
-//! A point p is inside all planes y · x ≤ 1 of the hull if and only if y is inside the half-space
-//! p · y ≤ 1. So the hull of the points is the polyhedron of those half-spaces read the other way: its
-//! faces are the hull's vertices and its vertices are the hull's faces. The cell that cuts half-spaces
-//! cuts these too, drops duplicates and points inside as redundant, and makes coplanar points one face.
+//! A point p is inside all planes y · x ≤ 1 of the hull if and only if y is inside the half-space p · y ≤ 1. So the
+//! intersection of these half-spaces is the dual of the hull: its faces are the vertices of the hull, and its
+//! vertices are the faces of the hull. Clipping a [`Cell`] by the half-spaces drops duplicates and interior points as
+//! redundant, and merges coplanar points into one face.
 
 use super::{
     HalfSpace, Polyhedron,
@@ -12,16 +12,16 @@ use super::{
 use crate::{Error, Result};
 use glam::{DMat3, DVec3};
 
-/// Part of the size within which points count as coplanar: far above rounding, far below a scene's care.
+/// Distance, relative to the size, within which points count as coplanar: far above rounding, far below the accuracy of a
+/// scene.
 const COPLANAR: f64 = 1e-9;
 
-/// Thinnest cloud that is not flat, as part of its size.
+/// Smallest thickness of a point cloud that is not flat, relative to its size.
 const FLAT: f64 = 1e-6;
 
 impl Polyhedron {
-    /// The convex hull of points (m), and its centroid (m), which becomes the origin. Points inside, on
-    /// faces or edges, and duplicates are dropped, also those that are less than about 1e-9 of the size
-    /// outside.
+    /// The convex hull of points (m), and its centroid (m), which becomes the origin. Duplicates and points inside,
+    /// on faces or on edges are dropped, as are points that lie outside by less than about 1e-9 of the size.
     ///
     /// # Errors
     /// If a point is not finite, or all are on one plane, or the hull is a sliver (see
@@ -30,7 +30,7 @@ impl Polyhedron {
         Self::hull(points, COPLANAR)
     }
 
-    /// The hull, points within `coplanar` of the size being on one plane.
+    /// The hull; points count as coplanar within `coplanar`, relative to the size.
     pub(super) fn hull(points: &[DVec3], coplanar: f64) -> Result<(Self, DVec3)> {
         if let Some(bad) = points.iter().position(|p| !p.is_finite()) {
             return Err(Error::argument(
@@ -61,10 +61,11 @@ impl Polyhedron {
     }
 }
 
-/// Four points that span much of the cloud: an extreme one, then always the farthest from those before.
+/// Four points that span much of the cloud: an extreme one, then each time the farthest from those before. `None` if all are
+/// coplanar.
 fn simplex(points: &[DVec3]) -> Option<[DVec3; 4]> {
     let farthest = |height: &dyn Fn(DVec3) -> f64| {
-        // The first of equals, so that the answer is the same every time.
+        // The first of equals, so that the result is deterministic.
         let better = |best: DVec3, p: DVec3| if height(p) > height(best) { p } else { best };
         points.iter().copied().reduce(better)
     };
@@ -79,21 +80,20 @@ fn simplex(points: &[DVec3]) -> Option<[DVec3; 4]> {
     (thin > FLAT * size).then_some([a, b, c, d])
 }
 
-/// The planes of the hull. The points are first mapped so that `corners` become a regular tetrahedron:
-/// a hull goes with its points, and in the map the cloud is about as thick as it is long. None if the map is beyond
-/// all numbers.
+/// The planes of the hull. The points are first mapped so that `corners` become a regular tetrahedron: the hull transforms with
+/// its points, and the mapped cloud is about as thick as it is long. `None` if the map is not finite.
 fn hull_planes(points: &[DVec3], corners: [DVec3; 4], coplanar: f64) -> Option<Vec<HalfSpace>> {
     let regular = DMat3::from_cols(
         DVec3::new(1.0, 1.0, 1.0),
         DVec3::new(1.0, -1.0, -1.0),
         DVec3::new(-1.0, 1.0, -1.0),
     );
-    // The corners' mean is the origin, and so three of them fix the map.
+    // The mean of the corners is the origin, so three of them define the map.
     let map = regular * DMat3::from_cols(corners[0], corners[1], corners[2]).inverse();
     let all: Vec<DVec3> = corners.iter().chain(points).copied().collect();
     let mapped: Vec<DVec3> = all.iter().map(|p| map * *p).collect();
     let mut order: Vec<usize> = (0..all.len()).collect();
-    // Far points first: then few others are ever outside. Sorting is stable, equals keep their order.
+    // Far points first, so that few later ones are outside. The sort is stable: equals keep their order.
     order[4..].sort_by(|a, b| {
         let square = |i: usize| mapped[i].length_squared();
         square(*b).total_cmp(&square(*a))
@@ -127,8 +127,8 @@ fn hull_planes(points: &[DVec3], corners: [DVec3; 4], coplanar: f64) -> Option<V
     Some(planes.collect())
 }
 
-/// Normal of the face with these corners in any order (Newell's: exact for three, the mean for more),
-/// which the dual knows only to its tolerance.
+/// Normal of the face with these corners in any order (Newell's method: exact for three, the mean for more). The dual
+/// gives this normal only to its tolerance.
 fn normal_of(mut corners: Vec<DVec3>, outwards: DVec3) -> DVec3 {
     let middle = corners.iter().sum::<DVec3>() / corners.len() as f64;
     let (u, v) = outwards.normalize().any_orthonormal_pair();
@@ -138,7 +138,7 @@ fn normal_of(mut corners: Vec<DVec3>, outwards: DVec3) -> DVec3 {
     let twice = pairs
         .map(|(a, b)| (*a - middle).cross(*b - middle))
         .sum::<DVec3>();
-    // Corners that are nearly one leave no area; then the dual knows better.
+    // Corners that nearly coincide leave no area; then the normal of the dual is better.
     let normal = twice.normalize_or(outwards.normalize());
     if normal.dot(outwards) > 0.0 {
         normal

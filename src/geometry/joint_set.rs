@@ -5,32 +5,32 @@ use crate::{Error, Result, random::uniform};
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// Largest number of a joint, from its set's origin.
+/// Largest index of a joint, counted from the origin of its set.
 const MOST: f64 = 1e6;
 
-/// Parallel joints. Joint 0 goes through `origin`, the others follow on both sides.
+/// Parallel joints. Joint 0 passes through `origin`; the others follow on both sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointSet {
-    /// Steepest fall, °: 0 is level, 90 upright.
+    /// Dip, °: 0 is horizontal, 90 vertical.
     pub dip: f64,
-    /// Where it falls to, ° from north to the east.
+    /// Dip direction, ° from north to the east.
     pub dip_direction: f64,
     /// Mean distance from joint to joint, m.
     pub spacing: f64,
-    /// How the distances vary.
+    /// Distribution of the distances.
     pub scatter: Scatter,
     /// A point of joint 0, m.
     pub origin: DVec3,
-    /// Chooses distances and patches; another seed, another rock mass of the same kind.
+    /// Seed of the random distances and open squares.
     pub seed: u64,
-    /// Without it, joints cut all that they meet.
+    /// Persistence; if `None`, joints are open everywhere.
     pub persistence: Option<Persistence>,
 }
 
-/// Distribution of the distances from joint to joint, their mean being the set's spacing.
+/// Distribution of the distances from joint to joint; their mean is the spacing of the set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scatter {
-    /// All the same.
+    /// All distances are equal.
     None,
     /// Uniform between spacing ± `range`.
     Uniform {
@@ -52,27 +52,27 @@ pub enum Scatter {
     Exponential,
 }
 
-/// Joints that are not open everywhere. Each is divided into squares along strike and dip, its own
-/// shift of the grid and the open squares chosen by the seed; it cuts a block through and through
-/// if the middle of the section's corners is in an open square, else not at all. So blocks stay convex.
+/// Joints that are not open everywhere. Each joint is divided into squares along strike and dip; the seed chooses the
+/// shift of this grid and the open squares. A joint cuts a block completely if the mean of the section's corners is
+/// in an open square, otherwise not at all, so that blocks stay convex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Persistence {
-    /// Share of squares that are open, 0 to 1.
+    /// Fraction of the squares that are open, 0 to 1.
     pub fraction: f64,
     /// Side of the squares, m.
     pub length: f64,
 }
 
-/// The joints of a set that a rock mass meets.
+/// The joints of a set that cross a rock mass.
 pub(super) struct Joints<'a> {
     set: &'a JointSet,
     attitude: Attitude,
-    /// Number in the set, and plane; rising.
+    /// Index in the set and plane, ascending.
     pub planes: Vec<(i64, HalfSpace)>,
 }
 
 impl JointSet {
-    /// The joints of the set between the heights that `range` gives for their normal, m.
+    /// The joints of the set between the two heights (m) that `range` gives for their normal.
     pub(super) fn joints(
         &self,
         compass: &Compass,
@@ -85,7 +85,7 @@ impl JointSet {
         let [low, high] = range(normal).map(|d| d - base);
         let mut heights = Vec::new();
         if let Scatter::None = self.scatter {
-            // Each from the origin, so that rounding does not add up.
+            // Each is computed from the origin, so that rounding does not accumulate.
             let first = self.counted((low / self.spacing).ceil())?;
             let last = self.counted((high / self.spacing).floor())?;
             heights.extend((first..=last).map(|k| (k, k as f64 * self.spacing)));
@@ -116,7 +116,7 @@ impl JointSet {
         })
     }
 
-    /// The number of a joint, unless it is one too many.
+    /// The index of a joint, if it is within the limit.
     fn counted(&self, k: f64) -> Result<i64> {
         if k.abs() <= MOST {
             return Ok(k as i64);
@@ -186,7 +186,7 @@ impl Joints<'_> {
         let Some(Persistence { fraction, length }) = self.set.persistence else {
             return true;
         };
-        // Words of other lengths than those of the distances, so that the numbers are others.
+        // Keys of another length than those of the distances, so that the random numbers differ.
         let draw = |key: [i64; 4]| uniform(self.set.seed, &key);
         let from = point - self.set.origin;
         let square = |axis: DVec3, which: i64| {
@@ -204,9 +204,9 @@ impl Joints<'_> {
 /// Directions of up and north.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compass {
-    /// Against gravity, of any length.
+    /// Upward direction, against gravity, of any length.
     pub up: DVec3,
-    /// Where the dip direction is 0°, of any length; only its level part counts.
+    /// Direction of the dip direction 0°, of any length; only its horizontal part counts.
     pub north: DVec3,
 }
 
@@ -223,20 +223,20 @@ impl Default for Compass {
 /// The axes of a plane: unit vectors, `strike` × `rise` = `normal`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Attitude {
-    /// Level, the plane falling to the right of it.
+    /// Horizontal; the plane dips to the right of it.
     pub strike: DVec3,
-    /// Up the plane.
+    /// Upwards along the plane.
     pub rise: DVec3,
-    /// Upwards normal.
+    /// Upward normal.
     pub normal: DVec3,
 }
 
 impl Compass {
-    /// Upward unit normal of a plane that falls by `dip` (°, 0 level to 90 upright) towards
-    /// `dip_direction` (°, from north to the east, which is right of north seen from above).
+    /// Upward unit normal of a plane that dips by `dip` (°, 0 horizontal to 90 vertical) towards `dip_direction` (°,
+    /// from north to the east, which is right of north seen from above).
     ///
     /// # Errors
-    /// If up and north are no axes, or the dip is not between 0 and 90, or an angle is not finite.
+    /// If up and north do not define axes, or the dip is not between 0 and 90, or an angle is not finite.
     pub fn normal(&self, dip: f64, dip_direction: f64) -> Result<DVec3> {
         Ok(self.attitude(dip, dip_direction)?.normal)
     }
@@ -244,7 +244,7 @@ impl Compass {
     fn attitude(&self, dip: f64, dip_direction: f64) -> Result<Attitude> {
         let axes = self.up.try_normalize().and_then(|up| {
             let north = self.north.try_normalize()?.reject_from_normalized(up);
-            // Within a hundredth of a degree of up, north would be a matter of rounding.
+            // If north is within a hundredth of a degree of up, rounding determines its horizontal part.
             (north.length() > 2e-4).then(|| (up, north.normalize()))
         });
         let Some((up, north)) = axes else {
@@ -276,7 +276,7 @@ impl Compass {
     }
 }
 
-/// Sine and cosine of an angle in degrees, exact at right angles, so that upright is upright.
+/// Sine and cosine of an angle in degrees, exact at right angles, so that vertical planes are exactly vertical.
 fn sin_cos(degrees: f64) -> (f64, f64) {
     match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),

@@ -10,11 +10,11 @@ use std::{
     path::Path,
 };
 
-/// Vertices nearer than this part of the mesh's diagonal are one: STL repeats each vertex in
+/// Vertices nearer to each other than this fraction of the mesh's diagonal are merged: STL repeats each vertex in
 /// every triangle, with the rounding of f32 (6e-8).
 const WELD: f64 = 1e-6;
 
-/// Triangles over shared vertices.
+/// A mesh of triangles with shared vertices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleMesh {
     /// Vertices, m.
@@ -24,12 +24,12 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// A mesh of `triangles` over `vertices` in m, of which those that coincide are made one.
+    /// A mesh of `triangles` over `vertices` (m). Vertices that coincide are merged.
     ///
-    /// Triangles that lose their area by this are left out.
+    /// Triangles that lose their area by this are dropped.
     ///
     /// # Errors
-    /// If a triangle names a vertex that is not there.
+    /// If a triangle refers to a vertex that does not exist.
     pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Result<Self> {
         named(triangles, vertices.len())
             .map_err(|message| Error::argument("triangles", message))?;
@@ -45,10 +45,10 @@ impl TriangleMesh {
         })
     }
 
-    /// Reads an STL or OBJ file; its unit becomes `scale` m and its origin goes to `translate` m.
+    /// Reads an STL or OBJ file whose unit is `scale` (m), and moves its origin to `translate` (m).
     ///
     /// # Errors
-    /// If the file cannot be read, is neither, or holds no triangle.
+    /// If the file cannot be read, is neither STL nor OBJ, or contains no triangle.
     pub fn read(path: &Path, scale: f64, translate: [f64; 3]) -> Result<Self> {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         let bytes = std::fs::read(path)
@@ -80,28 +80,27 @@ impl TriangleMesh {
         Self::new(&placed, &triangles).map_err(|error| Error::file(path, error))
     }
 
-    /// Corners of the triangle `index`, m; not numbers if it or they are not there.
+    /// Corners of the triangle `index`, m; NaN if the triangle or its vertices do not exist.
     pub fn corners(&self, index: usize) -> [DVec3; 3] {
         let corner = |c: u32| self.vertices.get(c as usize).copied().unwrap_or(DVec3::NAN);
         let triangle = self.triangles.get(index);
         triangle.map_or([DVec3::NAN; 3], |corners| corners.map(corner))
     }
 
-    /// Lower and upper corner of the box around the mesh, m.
+    /// Lower and upper corner of the bounding box of the mesh, m.
     pub fn bounds(&self) -> ([f64; 3], [f64; 3]) {
         let [min, max] = bounding_box(self.vertices.iter().copied());
         (min.into(), max.into())
     }
 
-    /// Whether every edge is passed as often in one direction as in the other: then the surface has no
-    /// boundary, and the winding number of every point off it is whole.
+    /// Checks that the triangles use every edge equally often in both directions: then the surface has no boundary,
+    /// and its winding number is an integer at every point off it.
     ///
     /// # Errors
-    /// Says how many edges offend, near which point, and how to mend the mesh, or which vertex is not there.
+    /// Names the number of invalid edges, the position of the first one and a remedy, or the vertex that does not exist.
     pub fn closed(&self) -> Result<(), String> {
         named(&self.triangles, self.vertices.len())?;
-        // How often an edge is used at all, and by how much one direction prevails. Sorted, so that the
-        // message is the same every time.
+        // Number of uses of each edge, and the excess of one direction. Sorted, so that the message is deterministic.
         let mut edges: BTreeMap<(u32, u32), (u32, i32)> = BTreeMap::new();
         for [a, b, c] in &self.triangles {
             for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
@@ -143,7 +142,7 @@ impl TriangleMesh {
     }
 }
 
-/// Whether all corners of `triangles` are among so many vertices.
+/// Checks that all corners of `triangles` are indices of one of so many `vertices`.
 pub(super) fn named(triangles: &[[u32; 3]], vertices: usize) -> Result<(), String> {
     let all = triangles.iter().flatten();
     match all.max().filter(|corner| **corner as usize >= vertices) {
@@ -162,7 +161,7 @@ fn no_files(_: Vec<u8>) -> Result<Soup, String> {
     Err("this program reads no meshes; build it with the feature `mesh` of riprap".into())
 }
 
-/// The distinct points, and for each given point which of them it is.
+/// The distinct points, and for each given point the index of its distinct point.
 fn weld(points: &[DVec3]) -> (Vec<DVec3>, Vec<u32>) {
     let [min, max] = bounding_box(points.iter().copied());
     let reach = (WELD * min.distance(max)).max(f64::MIN_POSITIVE);

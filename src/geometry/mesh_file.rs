@@ -6,7 +6,7 @@ use std::{collections::HashMap, io::Cursor, path::Path};
 
 pub(super) fn read_stl(mut bytes: Vec<u8>) -> Result<Soup, String> {
     if is_binary_stl(&bytes) {
-        // Some programs begin binary headers with the word that marks text.
+        // Some programs begin binary headers with the word that marks text files.
         bytes[..HEADER].fill(0);
     }
     let mesh = stl_io::read_stl(&mut Cursor::new(bytes))
@@ -24,7 +24,7 @@ pub(super) fn read_stl(mut bytes: Vec<u8>) -> Result<Soup, String> {
 /// Bytes of free text before the number of triangles in binary STL.
 const HEADER: usize = 80;
 
-/// Whether the length is that of as many triangles (50 bytes each) as binary STL announces.
+/// Whether the length matches the number of triangles (50 bytes each) in the header of a binary STL file.
 fn is_binary_stl(bytes: &[u8]) -> bool {
     match bytes.get(HEADER..).and_then(|rest| rest.first_chunk::<4>()) {
         Some(count) => bytes.len() as u64 == 84 + 50 * u64::from(u32::from_le_bytes(*count)),
@@ -37,7 +37,7 @@ pub(super) fn read_obj(bytes: Vec<u8>) -> Result<Soup, String> {
         triangulate: true,
         ..Default::default()
     };
-    // Materials say nothing about the shape.
+    // Materials do not affect the shape.
     let no_materials = |_: &Path| Ok((Vec::new(), HashMap::default()));
     let (models, _) = tobj::load_obj_buf(&mut Cursor::new(bytes), &options, no_materials)
         .map_err(|e| format!("not a valid OBJ file: {e}; export it again"))?;

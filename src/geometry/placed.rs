@@ -1,20 +1,20 @@
-//! A polyhedron where it is now: computed once a step, read by all of its pairs.
+//! A convex part in world coordinates: computed once per step, read by all of its pairs.
 
 use super::{Form, HalfSpace, Part, Polyhedron, Pose};
 use glam::{DMat3, DVec3};
 
-/// A convex polyhedron, or a sphere if it has no faces, in the world; vectors along the world's axes.
+/// A convex polyhedron, or a sphere if it has no faces, in world coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placed {
     /// Centroid, m.
     pub centre: DVec3,
-    /// F of its block: turns vectors of the block's frame into the world's.
+    /// Deformation gradient F of its block: maps vectors of the block's frame to the world's.
     pub deformation: DMat3,
     /// Faces, distances from `centre`.
     pub faces: Vec<HalfSpace>,
     /// Vertices from `centre`, m.
     pub vertices: Vec<DVec3>,
-    /// Radius about `centre` that holds all of it, m.
+    /// Radius of the bounding sphere about `centre`, m.
     pub radius: f64,
     /// Smallest distance of a face from `centre`, m.
     pub smallest_distance: f64,
@@ -36,7 +36,7 @@ impl Placed {
         self.faces.is_empty()
     }
 
-    /// Becomes `other` moved by `shift` (m), in the memory that it has.
+    /// Becomes `other` moved by `shift` (m), reusing the allocated memory.
     pub fn copy_moved(&mut self, other: &Self, shift: DVec3) {
         self.centre = other.centre + shift;
         self.deformation = other.deformation;
@@ -45,7 +45,7 @@ impl Placed {
         (self.radius, self.smallest_distance) = (other.radius, other.smallest_distance);
     }
 
-    /// What lies inside of a plane polygon of these corners (m); nothing of it in a sphere.
+    /// The part of a plane polygon with these corners (m) that lies inside; empty for a sphere.
     pub fn clipped(&self, mut corners: Vec<DVec3>) -> Vec<DVec3> {
         if self.faces.is_empty() {
             return Vec::new();
@@ -56,8 +56,8 @@ impl Placed {
         corners
     }
 
-    /// Moves to `pose` the polyhedron whose centroid is `offset` (m) from that of its block, in the
-    /// block's frame. Planes go with F⁻ᵀ, so that a deformed block stays a convex polyhedron.
+    /// Places at `pose` the polyhedron whose centroid is `offset` (m) from that of its block, in the block's frame.
+    /// Planes transform with F⁻ᵀ, so that a deformed block stays a convex polyhedron.
     pub fn update(&mut self, shape: &Polyhedron, offset: DVec3, pose: &Pose) {
         let f = pose.deformation;
         let cofactor = f.inverse().transpose();
@@ -81,8 +81,8 @@ impl Placed {
         self.smallest_distance = distances.fold(f64::INFINITY, f64::min);
     }
 
-    /// Moves to `pose` the sphere of `radius` (m) whose centre is `offset` (m) from the centroid of
-    /// its block, in the block's frame. A sphere has no faces and does not deform.
+    /// Places at `pose` the sphere of `radius` (m) whose centre is `offset` (m) from the centroid of its block, in
+    /// the block's frame. A sphere has no faces and does not deform.
     pub fn update_sphere(&mut self, radius: f64, offset: DVec3, pose: &Pose) {
         self.centre = pose.point(offset);
         self.deformation = pose.deformation;
@@ -93,21 +93,21 @@ impl Placed {
     }
 }
 
-/// Lower and upper corner of the box around points; ∞ and −∞ without points.
+/// Lower and upper corner of the bounding box of points; ∞ and −∞ without points.
 pub(crate) fn bounding_box(points: impl IntoIterator<Item = DVec3>) -> [DVec3; 2] {
     let widen = |[low, high]: [DVec3; 2], x: DVec3| [low.min(x), high.max(x)];
     let empty = [DVec3::INFINITY, DVec3::NEG_INFINITY];
     points.into_iter().fold(empty, widen)
 }
 
-/// Least and largest of some values; ∞ and −∞ without values.
+/// Smallest and largest of some values; ∞ and −∞ without values.
 pub(crate) fn min_max(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     let widen = |[low, high]: [f64; 2], x: f64| [low.min(x), high.max(x)];
     let empty = [f64::INFINITY, f64::NEG_INFINITY];
     values.into_iter().fold(empty, widen)
 }
 
-/// Keeps the part of a plane polygon at heights of at most zero (Sutherland & Hodgman 1974).
+/// Keeps the part of a plane polygon where `height` is at most zero (Sutherland & Hodgman 1974).
 pub(crate) fn clip(corners: &mut Vec<DVec3>, height: impl Fn(DVec3) -> f64) {
     let mut kept = Vec::with_capacity(corners.len() + 1);
     for (k, &b) in corners.iter().enumerate() {

@@ -5,12 +5,12 @@ use crate::{Error, Result};
 use glam::{DMat3, DVec3};
 use std::f64::consts::SQRT_2;
 
-/// Smallest distance of a face from the centroid, as part of the diameter. Contact scales by the
-/// diameter and decides to 1e-9 of it, and thinner blocks would have no digits left for their overlap.
+/// Smallest distance of a face from the centroid, relative to the diameter. Contact scales lengths by the diameter
+/// and resolves 1e-9 of it; thinner blocks would leave no significant digits for the overlap.
 pub(super) const SLIVER: f64 = 1e-4;
 
-/// A convex polyhedron, ready for contact: unit normals, no redundant face, coplanar faces merged, the
-/// centroid at the origin. Only its constructors make one, so that all of this always holds.
+/// A convex polyhedron, ready for contact: unit normals, no redundant face, coplanar faces merged, the centroid at
+/// the origin. Its constructors guarantee all of this.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyhedron {
     faces: Vec<HalfSpace>,
@@ -33,7 +33,7 @@ impl Polyhedron {
         &self.vertices
     }
 
-    /// Pairs of vertices, each once.
+    /// Edges as pairs of vertices, each edge once.
     pub fn edges(&self) -> &[[u32; 2]] {
         &self.edges
     }
@@ -64,7 +64,7 @@ impl Polyhedron {
         distances.fold(f64::INFINITY, f64::min)
     }
 
-    /// The polyhedron that a finished cell is, and the cell's centroid.
+    /// The polyhedron of a finished cell, and the cell's centroid.
     pub(super) fn from_cell(mut cell: Cell) -> Result<(Self, DVec3)> {
         cell.compact();
         cell.settle();
@@ -77,11 +77,11 @@ impl Polyhedron {
         Ok((Self::about(cell, centroid)?, centroid))
     }
 
-    /// The polyhedron that a finished cell is, its centroid known.
+    /// The polyhedron of a finished cell with a known centroid.
     pub(super) fn about(cell: Cell, centroid: DVec3) -> Result<Self> {
         let sources: Vec<u32> = cell.facets.iter().map(|f| f.source).collect();
         let block = Self::unchecked(cell, centroid);
-        // Also refused if it is not a number.
+        // Also refuses NaN.
         let thick = |f: &HalfSpace| f.distance >= SLIVER * 2.0 * block.radius;
         match block.faces.iter().position(|f| !thick(f)) {
             None => Ok(block),
@@ -97,7 +97,7 @@ impl Polyhedron {
         }
     }
 
-    /// The polyhedron that a compact cell is, however thin.
+    /// The polyhedron of a compact cell, however thin.
     pub(super) fn unchecked(cell: Cell, centroid: DVec3) -> Self {
         let moments = cell.moments(centroid);
         let vertices: Vec<DVec3> = cell.vertices.iter().map(|v| *v - centroid).collect();
@@ -124,18 +124,18 @@ impl Polyhedron {
         }
     }
 
-    /// Smallest distance of a face as part of the diameter, twice the radius.
+    /// Smallest distance of a face from the centroid, relative to the diameter, twice the radius.
     pub(super) fn thickness(&self) -> f64 {
         self.smallest_distance() / (2.0 * self.radius)
     }
 
-    /// The points inside all of `faces`, and their centroid (m), which becomes the origin. Faces without
-    /// a vertex go, coplanar ones become one, the others keep their order. Normals need not have unit
-    /// length: both sides of n · x ≤ d are divided by |n|.
+    /// The points inside all of `faces`, and their centroid (m), which becomes the origin. Redundant faces are
+    /// dropped, coplanar ones are merged, and the others keep their order. Normals need not have unit length: both
+    /// sides of n · x ≤ d are divided by |n|.
     ///
     /// # Errors
-    /// If a face is not finite or has no normal, or if what the faces bound is unbounded, empty, or a
-    /// sliver (a face nearer to the centroid than 1e-4 of the diameter, twice the radius). Says which face.
+    /// If a face is not finite or has no normal, or if the intersection is unbounded, empty, or a sliver (a face
+    /// nearer to the centroid than 1e-4 of the diameter, twice the radius). Names the face.
     pub fn from_half_spaces(faces: &[HalfSpace]) -> Result<(Self, DVec3)> {
         Self::from_cell(cell_of(&unit(faces)?)?)
     }
@@ -205,7 +205,7 @@ pub struct HalfSpace {
 }
 
 impl HalfSpace {
-    /// The half-space whose outward `normal` (of any length) stands on a plane through `point` (m).
+    /// The half-space with the outward `normal` (of any length) whose plane passes through `point` (m).
     pub fn through(point: DVec3, normal: DVec3) -> Self {
         let normal = normal.normalize_or_zero();
         Self {
@@ -219,7 +219,7 @@ impl HalfSpace {
         self.normal.dot(point) - self.distance
     }
 
-    /// The other side of the same plane: exactly opposite numbers.
+    /// The other side of the same plane, with exactly opposite numbers.
     pub fn opposite(&self) -> Self {
         Self {
             normal: -self.normal,
@@ -227,7 +227,7 @@ impl HalfSpace {
         }
     }
 
-    /// The same points when the origin moves to `origin` (m).
+    /// The same half-space with coordinates from `origin` (m).
     pub fn seen_from(&self, origin: DVec3) -> Self {
         Self {
             normal: self.normal,
@@ -236,8 +236,8 @@ impl HalfSpace {
     }
 }
 
-/// Size of the box around the unit sphere's tangent planes beyond which a block counts as unbounded:
-/// one so long would be a sliver by far.
+/// Half-width of the box about the unit sphere beyond which the polyhedron of the sphere's tangent planes counts as
+/// unbounded: a block as long as this would be a sliver by far.
 const FAR: f64 = 1e6;
 
 /// The faces with unit normals.
@@ -252,7 +252,7 @@ pub(super) fn unit(faces: &[HalfSpace]) -> Result<Vec<HalfSpace>> {
                 format!("normal {n} and distance {d} m are no plane; give finite numbers and a normal that is not zero"),
             ));
         }
-        // A unit normal keeps its bits.
+        // A unit normal stays bitwise the same.
         if (length - 1.0).abs() <= 2.0 * f64::EPSILON {
             return Ok(*face);
         }
@@ -264,17 +264,17 @@ pub(super) fn unit(faces: &[HalfSpace]) -> Result<Vec<HalfSpace>> {
     scaled.collect()
 }
 
-/// What `faces` (unit normals) bound. Facets carry the index of their face and its very numbers.
+/// The cell that `faces` (unit normals) bound. Facets store the index of their face and exactly its plane.
 pub(super) fn cell_of(faces: &[HalfSpace]) -> Result<Cell> {
     let reach = reach(faces)?;
     let largest = faces.iter().map(|f| f.distance.abs()).fold(0.0, f64::max);
-    // n · x ≤ d ≤ largest: all points lie in the polyhedron of the tangent planes, scaled.
+    // n · x ≤ d ≤ largest: all points lie in the scaled polyhedron of the tangent planes.
     let (mut centre, mut half) = (DVec3::ZERO, 1.01 * reach * largest);
     loop {
         let mut cell = clip_box(faces, centre, half)?;
         let [min, max] = cell.bounds();
         let size = (max - min).max_element() / 2.0;
-        // Again from a box of its size, or the rounding of the large box would remain.
+        // Repeat from a box of its size; otherwise the rounding of the large box would remain.
         if size < half / 8.0 {
             (centre, half) = ((min + max) / 2.0, 2.0 * size);
             continue;
@@ -287,7 +287,7 @@ pub(super) fn cell_of(faces: &[HalfSpace]) -> Result<Cell> {
     }
 }
 
-/// What `faces` leave of the box of half-width `half` about `centre`, seen from there.
+/// The box of half-width `half` about `centre`, clipped by `faces`, with coordinates from `centre`.
 fn clip_box(faces: &[HalfSpace], centre: DVec3, half: f64) -> Result<Cell> {
     let mut cell = Cell::cuboid(DVec3::splat(-half), DVec3::splat(half));
     for (index, face) in faces.iter().enumerate() {
@@ -308,8 +308,8 @@ fn clip_box(faces: &[HalfSpace], centre: DVec3, half: f64) -> Result<Cell> {
     Ok(cell)
 }
 
-/// Largest distance from the origin in the polyhedron of all tangent planes n · x ≤ 1. That is bounded
-/// if and only if every nonempty polyhedron with these normals is.
+/// Largest distance from the origin in the polyhedron of all tangent planes n · x ≤ 1. This polyhedron is bounded if
+/// and only if every nonempty polyhedron with these normals is bounded.
 fn reach(faces: &[HalfSpace]) -> Result<f64> {
     let mut cell = Cell::cuboid(DVec3::splat(-FAR), DVec3::splat(FAR));
     for face in faces {

@@ -1,26 +1,26 @@
-//! The one interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
+//! Poses and loads: the interface between blocks and whatever loads them (Gardner & Sitar 2018, eqs. 11–12).
 
 use crate::{Error, Result};
 use glam::{DMat3, DQuat, DVec3};
 
-/// Where a block is and how it moves, SI. A rigid block has a rotation for `deformation`; a deforming
-/// one any matrix, so that the velocity of a point is the same formula for both.
+/// Position and motion of a block, SI. `deformation` is a rotation for a rigid block and any matrix for a deformable
+/// one, so that one formula gives the velocity of a point of either.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
     /// Centroid, m.
     pub centre: DVec3,
-    /// F: a point X of the block, m from its centroid in its own frame, is at `centre` + F X.
+    /// Deformation gradient F: a point X of the block, m from its centroid in its own frame, is at `centre` + F X.
     pub deformation: DMat3,
     /// Velocity of the centroid, m/s.
     pub velocity: DVec3,
-    /// Ḟ, 1/s.
+    /// Rate of the deformation gradient, Ḟ, 1/s.
     pub deformation_rate: DMat3,
 }
 
 impl Pose {
-    /// A rigid block turned by `rotation` that moves with `velocity` (m/s) and turns with `spin`
-    /// (rad/s, about the axes of the world).
+    /// Pose of a rigid block with this `rotation`, `velocity` (m/s) and angular velocity `spin` (rad/s, about the
+    /// axes of the world).
     pub fn rigid(centre: DVec3, rotation: DQuat, velocity: DVec3, spin: DVec3) -> Self {
         let deformation = DMat3::from_quat(rotation);
         Self {
@@ -31,7 +31,7 @@ impl Pose {
         }
     }
 
-    /// Whether it is a place and a motion at all.
+    /// Whether all numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.centre.is_finite()
             && self.deformation.is_finite()
@@ -39,10 +39,10 @@ impl Pose {
             && self.deformation_rate.is_finite()
     }
 
-    /// Whether a block keeps a volume in it, and is not turned inside out.
+    /// Checks that the deformation keeps a volume and does not invert the block.
     ///
     /// # Errors
-    /// [`Error::Argument`] at `place` if not.
+    /// [`Error::Argument`] at `place` if the determinant of the deformation is not positive.
     pub(crate) fn check_volume(&self, place: impl FnOnce() -> String) -> Result<()> {
         let determinant = self.deformation.determinant();
         if determinant > 0.0 {
@@ -55,12 +55,12 @@ impl Pose {
         Err(Error::argument(place(), message))
     }
 
-    /// Place of the point X of the block, m.
+    /// Position of the point X of the block, m.
     pub fn point(&self, x: DVec3) -> DVec3 {
         self.centre + self.deformation * x
     }
 
-    /// Where it is `time` (s) later if it goes on evenly.
+    /// The pose `time` (s) later, at constant velocity and deformation rate.
     pub fn after(&self, time: f64) -> Self {
         Self {
             centre: self.centre + time * self.velocity,
@@ -69,7 +69,7 @@ impl Pose {
         }
     }
 
-    /// What of it lies in the plane at `y` (m), where nothing varies along y: all points of it are in that plane.
+    /// The pose in a plane flow, which does not vary along y: all points of the block are in the plane at `y` (m).
     pub(crate) fn in_plane(&self, y: f64) -> Self {
         Self {
             centre: self.centre.with_y(y),
@@ -98,7 +98,7 @@ fn in_plane(v: DVec3) -> DVec3 {
     v.with_y(0.0)
 }
 
-/// Without row and column of y.
+/// The matrix without the row and the column of y.
 fn plane_part(m: DMat3) -> DMat3 {
     DMat3::from_cols(in_plane(m.x_axis), DVec3::ZERO, in_plane(m.z_axis))
 }
@@ -108,7 +108,7 @@ pub(crate) fn outer(a: DVec3, b: DVec3) -> DMat3 {
     DMat3::from_cols(a * b.x, a * b.y, a * b.z)
 }
 
-/// Σ r × f of the moment Σ f ⊗ r.
+/// Torque Σ r × f of the moment Σ f ⊗ r.
 pub(crate) fn axial(m: DMat3) -> DVec3 {
     DVec3::new(
         m.y_axis.z - m.z_axis.y,
@@ -122,7 +122,7 @@ pub(crate) fn inner(a: DMat3, b: DMat3) -> f64 {
     a.x_axis.dot(b.x_axis) + a.y_axis.dot(b.y_axis) + a.z_axis.dot(b.z_axis)
 }
 
-/// What a fluid does to a block in a step, SI.
+/// Load of a fluid on a block in one step, SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Load {
@@ -132,17 +132,17 @@ pub struct Load {
     pub moment: DMat3,
     /// Volume in which the fluid moves with the block, ΣB, m³.
     pub entrained: f64,
-    /// Volume of the block in which the fluid does not move with it, Σ(ε − B), m³. A body force b on the fluid is missing
-    /// from `force` by ρ b ΣB, and the buoyancy −ρ g Σε is that of both volumes.
+    /// Volume of the block in which the fluid does not move with it, Σ(ε − B), m³. `force` lacks the part ρ b ΣB of a body
+    /// force b on the fluid, and the buoyancy −ρ g Σε is that of both volumes.
     pub missing: f64,
     /// First moment of the entrained volume about the centroid, m⁴.
     pub entrained_moment: DVec3,
-    /// First moment of that volume about the centroid, m⁴.
+    /// First moment of the volume `missing` about the centroid, m⁴.
     pub missing_moment: DVec3,
 }
 
 impl Default for Load {
-    /// None. Not derived: the default of a matrix is the identity.
+    /// No load. Not derived: the default of a matrix is the identity.
     fn default() -> Self {
         Self {
             force: DVec3::ZERO,
@@ -165,7 +165,7 @@ impl Load {
         }
     }
 
-    /// What of it lies in the plane of x and z, where nothing varies along y.
+    /// The load in a plane flow, which does not vary along y: its components in x and z.
     pub(crate) fn in_plane(&self) -> Self {
         Self {
             force: in_plane(self.force),
@@ -174,8 +174,8 @@ impl Load {
         }
     }
 
-    /// Work (J) on a block that goes evenly from one pose to another under this load: F·Δc + Σ f ⊗ r : ΔF F⁻¹, with F in
-    /// the middle.
+    /// Work (J) of this load on a block that moves at constant rates from one pose to another: F·Δc + Σ f ⊗ r : ΔF F⁻¹, with
+    /// the deformation gradient at mid-step.
     pub fn work(&self, from: &Pose, to: &Pose) -> f64 {
         let change = to.deformation - from.deformation;
         let translation = self.force.dot(to.centre - from.centre);

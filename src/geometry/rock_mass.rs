@@ -1,8 +1,8 @@
 //! Fractured rock: convex volumes cut by joint sets into convex blocks.
 //!
-//! Successive subdivision (Gardner, Kolb & Sitar 2017, Comput. Geotech. 89:1, "SparkRocks"): each joint
-//! divides the convex pieces that it meets into two convex pieces. The pieces of one round do not know
-//! of each other, and so all are cut at once, whatever the number of threads.
+//! Successive subdivision (Gardner, Kolb & Sitar 2017, Comput. Geotech. 89:1, "SparkRocks"): each joint divides the
+//! convex pieces that it crosses into two convex pieces. Pieces are independent of each other, so they are cut in
+//! parallel; the result does not depend on the number of threads.
 
 use super::{
     Compass, HalfSpace, JointSet, Polyhedron,
@@ -15,10 +15,10 @@ use crate::{Error, Result};
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Most pieces: their polyhedra take about 2 kB each.
+/// Largest number of pieces: their polyhedra take about 2 kB each.
 const MOST: usize = 10_000_000;
 
-/// Radius of the smallest block, as part of the size of the mass: it is known to 1e-6 of itself.
+/// Radius of the smallest block, relative to the size of the mass; coordinates of the block are then accurate to 1e-6 of it.
 const SPECK: f64 = 1e-6;
 
 /// A rock mass to be cut.
@@ -51,17 +51,17 @@ const SPECK: f64 = 1e-6;
 pub struct RockMass {
     /// Convex volumes, each inside all of its faces (m); they should not overlap.
     pub volumes: Vec<Vec<HalfSpace>>,
-    /// More faces, for all volumes: the slope, the ground surface.
+    /// Further faces that bound all volumes, such as the slope or the ground surface.
     pub surfaces: Vec<HalfSpace>,
     /// The joint sets, cut in this order.
     pub joints: Vec<JointSet>,
-    /// What dip and dip direction refer to.
+    /// Reference directions of dip and dip direction.
     pub compass: Compass,
     /// Pieces smaller than this are slivers, m³; 0 for none.
     pub smallest_volume: f64,
-    /// Pieces with a face nearer to the centroid than this part of the diameter (twice the radius) are
-    /// slivers. Those below 1e-4, which contact cannot resolve, always are, and so are pieces smaller
-    /// than 1e-6 of the mass, of which rounding takes too many digits.
+    /// Pieces with a face nearer to the centroid than this fraction of the diameter (twice the radius) are slivers.
+    /// Pieces below 1e-4, which contact cannot resolve, are always slivers, and so are pieces smaller than 1e-6 of
+    /// the mass, for which rounding leaves too few digits.
     pub smallest_thickness: f64,
 }
 
@@ -70,7 +70,7 @@ pub struct RockMass {
 pub struct Fragments {
     /// The blocks, in an order that depends only on the rock mass.
     pub blocks: Vec<Fragment>,
-    /// What is too small or too thin.
+    /// Pieces that are too small or too thin.
     pub slivers: Vec<Sliver>,
     /// Volume of the mass inside all surfaces, m³.
     pub volume: f64,
@@ -83,8 +83,8 @@ pub struct Fragment {
     pub shape: Polyhedron,
     /// Its centroid, m.
     pub centre: DVec3,
-    /// The planes of the shape's faces, in their order, in the coordinates of the mass: the very numbers
-    /// of the mass's faces and of the joints, and their exact opposites for the block on the other side.
+    /// The planes of the shape's faces, in their order, in the coordinates of the mass: bitwise those of the mass's
+    /// faces and of the joints, and exactly opposite for the block on the other side.
     pub planes: Vec<HalfSpace>,
 }
 
@@ -95,7 +95,7 @@ pub struct Sliver {
     pub volume: f64,
     /// Centroid, m.
     pub centre: DVec3,
-    /// The block that it would be, if contact can resolve that.
+    /// The piece as a block, if contact can resolve it.
     pub block: Option<Fragment>,
 }
 
@@ -115,8 +115,8 @@ impl RockMass {
     /// Cuts the mass.
     ///
     /// # Errors
-    /// If a volume is not a block (see [`Polyhedron::from_half_spaces`]), a joint set or a limit for slivers cannot be
-    /// used, or there would be more than ten million pieces. Says which volume or set.
+    /// If a volume is not a block (see [`Polyhedron::from_half_spaces`]), a joint set or a limit for slivers is invalid, or
+    /// there would be more than ten million pieces. Names the volume or the set.
     pub fn cut(&self) -> Result<Fragments> {
         if self.volumes.is_empty() {
             let message = "a rock mass needs a volume; give the faces of at least one";
@@ -131,7 +131,7 @@ impl RockMass {
                 return Err(Error::argument(name, message));
             }
         }
-        // What facets are known by: all planes, in the coordinates of the mass.
+        // All planes, in the coordinates of the mass. Facets refer to them by index.
         let mut planes = Vec::new();
         let mut pieces = Vec::new();
         for (index, faces) in self.volumes.iter().enumerate() {
@@ -235,7 +235,7 @@ impl RockMass {
 }
 
 impl Fragments {
-    /// Makes blocks of the slivers that contact can resolve, after the other blocks.
+    /// Appends the slivers that contact can resolve to the blocks.
     pub fn keep_slivers(mut self) -> Self {
         let (kept, thin): (Vec<_>, Vec<_>) =
             self.slivers.into_iter().partition(|s| s.block.is_some());
@@ -250,18 +250,18 @@ enum Piece {
     Sliver(Sliver),
 }
 
-/// One joint set, seen from the middle of the mass.
+/// One joint set; `local` are its planes relative to the middle of the mass.
 struct Cutter<'a> {
     joints: Joints<'a>,
     local: Vec<HalfSpace>,
-    /// Number of its first plane among all of the mass.
+    /// Index of its first plane among all planes of the mass.
     first: u32,
     middle: DVec3,
     on: f64,
 }
 
 impl Cutter<'_> {
-    /// The joints that may meet a cell.
+    /// Indices of the joints that may cross a cell.
     fn meets(&self, cell: &Cell) -> std::ops::Range<usize> {
         let Some(normal) = self.local.first().map(|plane| plane.normal) else {
             return 0..0;
@@ -271,7 +271,7 @@ impl Cutter<'_> {
         start..self.local.partition_point(|p| p.distance < high)
     }
 
-    /// The pieces that the joints make of one.
+    /// The pieces into which the joints cut a cell.
     fn cut(&self, cell: Cell) -> Vec<Cell> {
         let mut pieces = Vec::new();
         let mut rest = cell;
@@ -300,7 +300,7 @@ impl Cell {
     }
 }
 
-/// Moves the cells so that the middle of the box around them is the origin; returns where it was.
+/// Moves the cells so that the middle of their bounding box is the origin; returns its previous position.
 fn recentre(cells: &mut [Cell]) -> DVec3 {
     let bounds = cells.iter().map(Cell::bounds);
     let all = bounds.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);

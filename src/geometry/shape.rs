@@ -49,12 +49,12 @@ impl Form {
     }
 }
 
-/// A convex part and where it sits.
+/// A convex part and its position in a shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// What it is.
+    /// Its convex form.
     pub form: Form,
-    /// Its centroid from that of the shape, in the shape's frame, m.
+    /// Position of its centroid relative to that of the shape, in the shape's frame, m.
     pub offset: DVec3,
 }
 
@@ -104,12 +104,12 @@ impl Shape {
         self.inertia
     }
 
-    /// Radius about the centroid that holds all parts, m.
+    /// Radius of the bounding sphere about the centroid, m.
     pub fn radius(&self) -> f64 {
         self.radius
     }
 
-    /// Least and largest coordinate of a point along a vector, m from the centroid; spheres take it for a unit vector.
+    /// Smallest and largest coordinate along a vector, m from the centroid; for spheres it must be a unit vector.
     pub(crate) fn extent(&self, along: DVec3) -> [f64; 2] {
         min_max(self.parts.iter().flat_map(|part| {
             let centre = along.dot(part.offset);
@@ -123,12 +123,12 @@ impl Shape {
         }))
     }
 
-    /// The rigid compound of `parts`, their offsets in any common frame (m), and its centroid (m) in
-    /// that frame, which becomes the origin. Volume and inertia are the sums over the parts, which must
-    /// not overlap, or their mass would count twice.
+    /// The rigid compound of `parts`, with offsets in any common frame (m), and its centroid (m) in that frame, which
+    /// becomes the origin. Volume and inertia are sums over the parts; these must not overlap, or their mass would
+    /// count twice.
     ///
     /// # Errors
-    /// If there is no part, an offset is not finite, a sphere has no radius, or two parts overlap.
+    /// If there is no part, an offset is not finite, the radius of a sphere is not positive, or two parts overlap.
     pub fn compound(parts: Vec<Part>) -> Result<(Self, DVec3)> {
         if parts.is_empty() {
             let message = "a compound needs a part; give at least one";
@@ -168,7 +168,7 @@ impl Shape {
         (Self::of(parts, centroid, volume, inertia), centroid)
     }
 
-    /// Parts moved to their common centroid, whose mass properties are known.
+    /// Parts moved to their common centroid, with known mass properties.
     pub(super) fn of(parts: Vec<Part>, centroid: DVec3, volume: f64, inertia: DMat3) -> Self {
         let moved = parts.into_iter().map(|part| Part {
             offset: part.offset - centroid,
@@ -203,7 +203,7 @@ impl Part {
         }
     }
 
-    /// Whether the mass of the two would count twice somewhere.
+    /// Whether the two parts overlap by more than rounding.
     pub(super) fn overlaps(&self, other: &Self) -> bool {
         let apart = self.offset.distance(other.offset);
         if apart >= self.form.radius() + other.form.radius() {
@@ -227,11 +227,11 @@ impl Part {
     }
 }
 
-/// Share of the smaller part that may be common to two: what rounding of their places makes of parts
-/// that touch.
+/// Overlap of two parts, relative to the smaller one, that is tolerated: rounded positions make touching parts
+/// overlap.
 const COMMON: f64 = 1e-6;
 
-/// Volume of what is in both, m³.
+/// Volume of the intersection, m³.
 fn common_volume(a: &Polyhedron, at_a: DVec3, b: &Polyhedron, at_b: DVec3) -> f64 {
     let facets = a.faces().iter().zip(a.loops()).map(|(face, ring)| Facet {
         plane: *face,
@@ -249,7 +249,7 @@ fn common_volume(a: &Polyhedron, at_a: DVec3, b: &Polyhedron, at_b: DVec3) -> f6
 }
 
 impl Polyhedron {
-    /// Distance of a point, m from the centroid; 0 inside.
+    /// Distance (m) of a point, given in m from the centroid; 0 inside.
     pub(crate) fn distance(&self, point: DVec3) -> f64 {
         let at = |v: u32| self.vertices()[v as usize];
         if self.faces().iter().all(|f| f.height(point) <= 0.0) {
@@ -260,7 +260,7 @@ impl Polyhedron {
             let t = (point - a).dot(along) / along.length_squared();
             (a + along * t.clamp(0.0, 1.0)).distance(point)
         });
-        // Of a face that the point is straight above.
+        // Distances from faces that contain the foot of the perpendicular from the point.
         let faces = self.faces().iter().zip(self.loops());
         let faces = faces.filter_map(|(face, ring)| {
             let height = face.height(point);

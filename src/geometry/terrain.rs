@@ -1,4 +1,4 @@
-//! Surfaces of heights over a grid, from surveys.
+//! Height surfaces on a grid, from surveys.
 
 #[cfg(feature = "mesh")]
 use super::terrain_file;
@@ -7,29 +7,29 @@ use crate::{Error, Result};
 use glam::DVec3;
 use std::path::Path;
 
-/// Most triangles of a surface that blocks touch: each is a convex part.
+/// Largest number of triangles of a surface for contact with blocks: each is a convex part.
 const MOST_PRISMS: usize = 200_000;
 
-/// Heights along z over a grid in x and y, with triangles between its nodes: each rectangle is cut from its lower corner to its upper
-/// one. What is below is solid.
+/// Heights along z on a grid in x and y. Each rectangle of the grid is divided into two triangles by the diagonal from its
+/// lower to its upper corner. The volume below is solid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Terrain {
-    /// The node of least x and y, m.
+    /// Node with the smallest x and y, m.
     pub(super) origin: [f64; 2],
-    /// Between nodes along x and y, m.
+    /// Distance between nodes along x and y, m.
     pub(super) spacing: [f64; 2],
-    /// Nodes along x and y, at least two each.
+    /// Number of nodes along x and y, at least two each.
     pub(super) nodes: [usize; 2],
     /// Height of each node, m, x fastest; NaN where there is none.
     pub(super) heights: Vec<f64>,
 }
 
 impl Terrain {
-    /// Heights (m, x fastest, NaN where there is none) of so many nodes along x and y, of which the one of least x and y is at `origin` (m),
-    /// `spacing` (m) apart.
+    /// A terrain from the heights (m, x fastest, NaN where there is none) of `nodes` along x and y that are `spacing` (m)
+    /// apart; the node with the smallest x and y is at `origin` (m).
     ///
     /// # Errors
-    /// If there are fewer than two nodes along an axis, another number of heights, or no positive spacing.
+    /// If there are fewer than two nodes along an axis, another number of heights, or origin or spacing are invalid.
     pub fn new(
         origin: [f64; 2],
         spacing: [f64; 2],
@@ -64,8 +64,8 @@ impl Terrain {
         Ok(self)
     }
 
-    /// Reads an XYZ file of a regular grid, an ESRI ASCII grid or a GeoTIFF; its unit becomes `scale` m and its origin goes to
-    /// `translate` m.
+    /// Reads an XYZ file of a regular grid, an ESRI ASCII grid or a GeoTIFF whose unit is `scale` (m), and moves its origin to
+    /// `translate` (m).
     ///
     /// # Errors
     /// If the file cannot be read, is none of these, or has no rectangle of heights.
@@ -99,7 +99,7 @@ impl Terrain {
         Ok(made)
     }
 
-    /// The node i, j, m.
+    /// Position of the node i, j, m.
     fn node(&self, i: usize, j: usize) -> DVec3 {
         DVec3::new(
             self.origin[0] + i as f64 * self.spacing[0],
@@ -108,7 +108,7 @@ impl Terrain {
         )
     }
 
-    /// The rectangles that lie at least in part between two corners in x and y (m), each with its nodes against the clock.
+    /// The rectangles that lie at least partly between two corners in x and y (m), each with its nodes counter-clockwise.
     fn rectangles(&self, min: [f64; 2], max: [f64; 2]) -> impl Iterator<Item = [DVec3; 4]> + '_ {
         let range = |a: usize| {
             // Float to integer casts saturate, so that what lies outside drops out.
@@ -124,8 +124,8 @@ impl Terrain {
         })
     }
 
-    /// The triangles of the surface that lie at least in part between two corners in x and y (m), against the clock seen from above;
-    /// those with a node without a height are left out.
+    /// The triangles of the surface that lie at least partly between two corners in x and y (m), counter-clockwise seen from
+    /// above, without those that have a node without a height.
     pub fn triangles(&self, min: [f64; 2], max: [f64; 2]) -> Vec<[DVec3; 3]> {
         let halves = |[a, b, c, d]: [DVec3; 4]| [[a, b, c], [a, c, d]];
         let all = self.rectangles(min, max).flat_map(halves);
@@ -133,7 +133,7 @@ impl Terrain {
             .collect()
     }
 
-    /// The height at a place (m); none beside the surface.
+    /// The height at x and y (m); `None` outside the surface and where it has no height.
     pub fn height(&self, x: f64, y: f64) -> Option<f64> {
         let [u, v] = [(x, 0), (y, 1)].map(|(x, a)| (x - self.origin[a]) / self.spacing[a]);
         let inside = |u: f64, a: usize| u >= 0.0 && u <= (self.nodes[a] - 1) as f64;
@@ -152,11 +152,11 @@ impl Terrain {
         height.is_finite().then_some(height)
     }
 
-    /// What blocks touch between two corners in x and y (m), and its centroid (m): a prism below each triangle, and one below
-    /// the two of a plane rectangle.
+    /// The shape that blocks touch between two corners in x and y (m), and its centroid (m): a prism below each triangle, and
+    /// one prism below a plane rectangle.
     ///
     /// # Errors
-    /// If that is nothing, or too much.
+    /// If no rectangle with heights lies there, or the shape would have too many prisms.
     pub(crate) fn shape(&self, min: [f64; 2], max: [f64; 2]) -> Result<(Shape, DVec3)> {
         let mut parts = Vec::new();
         let refused = |message: String| Err(Error::argument("file", message));

@@ -7,13 +7,13 @@ use tiff::{
     tags::Tag,
 };
 
-/// Distances that differ by less than this part of the spacing are the same.
+/// Tolerance for the distances between nodes, relative to the spacing.
 const REGULAR: f64 = 1e-3;
-/// Nodes of a grid for each that has a height: where there are more, the points are scattered.
+/// Largest number of grid nodes per node with a height; with more, the points are scattered.
 const SPARSE: usize = 100;
 
-/// x, y and z of each node in any order, in lines, between spaces, commas or semicolons; lines before the first that are not numbers are
-/// names, those that begin with # are comments.
+/// Reads x, y and z of one node per line, in any order, separated by spaces, commas or semicolons. Lines before the first node
+/// that are not numbers are column names; lines that begin with # are comments.
 pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
     let text =
         std::str::from_utf8(bytes).map_err(|e| format!("it is not text: {e}; export it again"))?;
@@ -59,7 +59,7 @@ pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
                 last - first
             ));
         }
-        // Lines of nodes that are missing altogether have no heights.
+        // Rows and columns without any point have no heights.
         Ok(((last - first) / count, count as usize + 1))
     };
     let ((dx, nx), (dy, ny)) = (axis("x", &xs)?, axis("y", &ys)?);
@@ -91,7 +91,7 @@ pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
     })
 }
 
-/// Words with numbers, then rows from north to south.
+/// Reads a header of words with numbers, then rows of heights from north to south.
 pub(super) fn read_ascii_grid(bytes: &[u8]) -> Result<Terrain, String> {
     let text =
         std::str::from_utf8(bytes).map_err(|e| format!("it is not text: {e}; export it again"))?;
@@ -136,7 +136,7 @@ pub(super) fn read_ascii_grid(bytes: &[u8]) -> Result<Terrain, String> {
     })
 }
 
-/// Rows from south to north, without the heights that stand for none.
+/// Rows from south to north, with NaN for the no-data value.
 fn from_south(values: &[f64], nx: usize, none: Option<f64>) -> Vec<f64> {
     let rows = values.chunks(nx.max(1)).rev().flatten();
     rows.map(|&height| {
@@ -149,7 +149,7 @@ fn from_south(values: &[f64], nx: usize, none: Option<f64>) -> Vec<f64> {
     .collect()
 }
 
-/// One band of heights with the place and the size of its pixels (OGC GeoTIFF 1.1, 19-008r4).
+/// Reads one band of heights, with the position and the size of its pixels (OGC GeoTIFF 1.1, 19-008r4).
 pub(super) fn read_tiff(bytes: Vec<u8>) -> Result<Terrain, String> {
     let wrong = |e: tiff::TiffError| format!("not a TIFF file of heights: {e}; export it again");
     let mut file = Decoder::new(Cursor::new(bytes)).map_err(wrong)?;
@@ -160,10 +160,10 @@ pub(super) fn read_tiff(bytes: Vec<u8>) -> Result<Terrain, String> {
     let tie = numbers(&mut file, Tag::ModelTiepointTag);
     let (Some([dx, dy, ..]), Some([i, j, _, x, y, ..])) = (scale.as_deref(), tie.as_deref()) else {
         return Err(
-            "it says not where its pixels are (ModelPixelScale and ModelTiepoint); export it as a GeoTIFF without a rotation".into(),
+            "it gives no pixel positions (ModelPixelScale and ModelTiepoint); export it as a GeoTIFF without a rotation".into(),
         );
     };
-    // GTRasterType (1025): 1, or nothing, where the tie point is a corner of a pixel; 2 where it is its middle.
+    // GTRasterType (1025): 1, or absent, if the tie point is a corner of a pixel; 2 if it is its centre.
     let keys = file
         .get_tag_u16_vec(Tag::GeoKeyDirectoryTag)
         .unwrap_or_default();
@@ -186,7 +186,7 @@ pub(super) fn read_tiff(bytes: Vec<u8>) -> Result<Terrain, String> {
             values.len()
         ));
     }
-    // Numbers of 32 bits that stand for none may be written with more digits.
+    // The no-data value of 32-bit numbers may be written with more digits.
     let none = none.map(|none| {
         values
             .iter()

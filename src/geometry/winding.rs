@@ -1,5 +1,5 @@
-//! Generalised winding number of a triangle mesh (Jacobson, Kavan & Sorkine-Hornung 2013), far
-//! parts by their dipole (Barill, Dickson, Schmidt, Levin & Jacobson 2018).
+//! Generalised winding number of a triangle mesh (Jacobson, Kavan & Sorkine-Hornung 2013); distant parts are
+//! approximated by their dipole (Barill, Dickson, Schmidt, Levin & Jacobson 2018).
 //!
 //! ```text
 //! w(q) = Σ_triangles Ω(q)/4π        Ω the signed solid angle
@@ -10,10 +10,10 @@ use super::{TriangleMesh, bounding_box};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// A part is far off beyond this many of its radii (the value of Barill et al. 2018). The error of
-/// the sum then stays below a tenth, against the ½ that decides.
+/// Distance, in radii of a part, beyond which its dipole is used (the value of Barill et al. 2018). The error of the
+/// sum then stays below a tenth, compared with the ½ that decides.
 const FAR: f64 = 2.0;
-/// Triangles of a leaf; the exact sum over so few costs about as much as one level of the tree.
+/// Number of triangles in a leaf; the exact sum over so few costs about as much as one level of the tree.
 const LEAF: usize = 8;
 
 /// A mesh prepared for many evaluations of its winding number.

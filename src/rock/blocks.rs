@@ -180,7 +180,7 @@ impl Blocks {
         self.steps
     }
 
-    /// Step of [`Blocks::step`], and the longest of [`Blocks::advance`], s.
+    /// Time step of [`Blocks::step`], and the longest one of [`Blocks::advance`], s.
     pub fn time_step(&self) -> f64 {
         self.time_step
     }
@@ -244,7 +244,7 @@ impl Blocks {
         self.states.iter().map(|state| state.torque)
     }
 
-    /// Force of films of fluid on each block over the last half of the last step, N.
+    /// Mean force of the fluid films on each block over the second half of the last step, N.
     pub fn film_forces(&self) -> Vec<DVec3> {
         let mut forces = vec![DVec3::ZERO; self.len()];
         for (block, force) in self.films.forces() {
@@ -259,7 +259,7 @@ impl Blocks {
         each.map(|state| [state.load, state.load_torque])
     }
 
-    /// Which blocks sleep.
+    /// Whether each block is asleep.
     pub fn asleep(&self) -> impl Iterator<Item = bool> + '_ {
         self.states.iter().map(|state| state.asleep)
     }
@@ -309,7 +309,7 @@ impl Blocks {
         self.gravity
     }
 
-    /// Force, N, and torque about the centroid, N m, of the loads that act on a single block at present: its point loads, and its
+    /// Force, N, and torque about the centroid, N m, of the present applied loads of a block: its point loads, and its
     /// mass times its acceleration.
     pub(crate) fn applied_load(&self, block: usize) -> [DVec3; 2] {
         let body = &self.bodies[block];
@@ -327,7 +327,7 @@ impl Blocks {
             .ledger(self.all(), &self.contacts, self.gravity)
     }
 
-    /// Counters of the contact resolvers so far.
+    /// Counters of the contact resolvers, summed over all threads.
     pub fn counts(&self) -> Counts {
         self.resolver_pool.counts()
     }
@@ -369,7 +369,7 @@ impl Blocks {
         Ok(())
     }
 
-    /// Steps until the time is `until` (s), in equal steps of at most the time step, with pairs from
+    /// Advances to the time `until` (s), in equal steps of at most the time step, with new pairs from
     /// `broadphase` when needed.
     ///
     /// # Errors
@@ -390,7 +390,7 @@ impl Blocks {
         Ok(())
     }
 
-    /// Times the phases of steps from now on.
+    /// Measures the times of the phases of steps from now on.
     pub fn time_phases(&mut self) {
         self.step_times.get_or_insert_default();
     }

@@ -23,7 +23,7 @@ pub(super) struct Body {
     /// Index among the deformable blocks, or [`RIGID`].
     pub deforming: u32,
     pub drive: Drive,
-    /// Unit vector of the guide, along which the block moves without rotation; `None` without a guide.
+    /// Unit vector of the guide along which the block moves without rotation; `None` without a guide.
     pub guide: Option<Box<DVec3>>,
     /// kg.
     pub mass: f64,
@@ -74,7 +74,7 @@ impl Body {
         formulas.each_ref().map(|v| formula_values(v, t))
     }
 
-    /// The first formula of a driven block that is not finite at the time `t` (s), if any.
+    /// The first formula of a driven block whose value is not finite at the time `t` (s), if any.
     pub fn undriven_at(&self, t: f64) -> Option<&str> {
         let Drive::Formulas(formulas) = &self.drive else {
             return None;
@@ -84,7 +84,7 @@ impl Body {
         lost.map(Formula::text)
     }
 
-    /// Loads on this block alone.
+    /// Point loads and acceleration of this block, if any.
     pub fn applied_forces(&self) -> Option<&AppliedForces> {
         match &self.drive {
             Drive::Forces(applied_forces) => applied_forces.as_deref(),
@@ -283,8 +283,8 @@ pub(super) fn first_half(body: &Body, state: &State, params: StepParams) -> (DVe
     )
 }
 
-/// Kick and drift of one block over `dt` from `time`; a sleeping or fixed block does not move, and deformable
-/// blocks are moved elsewhere. `push`: impulse of films of fluid in the first half of the step.
+/// Kick and drift of one block over `dt` from `time`. Sleeping and fixed blocks do not move; [`DeformingBlocks`] moves
+/// deformable ones. `push`: impulse of films of fluid in the first half of the step.
 pub(super) fn kick_drift(
     body: &Body,
     state: &mut State,

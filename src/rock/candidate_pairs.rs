@@ -31,7 +31,7 @@ pub(super) struct CandidatePair {
     pub offset: [i32; 3],
     /// Cache of the resolver.
     pub cache: Cache,
-    /// Its contact among all contacts, or [`NO_CONTACT`].
+    /// Index of its contact among all contacts, or [`NO_CONTACT`].
     pub contact: u32,
 }
 
@@ -89,7 +89,7 @@ fn step_travel(body: &Body, state: &State, deforming: &DeformingBlocks, dt: f64)
     deforming.fastest(body, state) * dt
 }
 
-/// Whether some block may leave its boxes within a step, so that pairs may be missing.
+/// Whether any block may leave its boxes within a step, so that pairs may be missing.
 fn skin_exceeded(
     bodies: &[Body],
     states: &[State],
@@ -106,8 +106,8 @@ fn skin_exceeded(
         })
 }
 
-/// A new list that keeps the caches and contacts of the pairs of the old one. A pair in contact that is not in `new` is
-/// kept: its history ends only when the resolver finds no contact.
+/// The list of `new` pairs, with the caches and contacts of the `old` list. An old pair in contact that is not in `new`
+/// is kept: its history ends only when the resolver finds no contact.
 ///
 /// `lasting`: the components of the periodic offset that identify a pair, see [`Periods::lasting`].
 fn merged(
@@ -133,7 +133,7 @@ fn merged(
     list
 }
 
-/// Two parts that may touch, and the image of the second that may touch the first.
+/// Two parts that may touch, and the periodic image of the second that may touch the first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct PartPair {
     /// First and second part, in ascending order.
@@ -143,7 +143,7 @@ struct PartPair {
 }
 
 /// Converts pairs of boxes to pairs of parts, without pairs of one block and pairs of two blocks that forces
-/// do not move. `images`: the part of each box; if empty, box and part have the same number.
+/// do not move. `images`: the part of each box; if `None`, box and part have the same number.
 ///
 /// # Errors
 /// If the list is not sorted, names a box that does not exist, or names a pair twice.
@@ -186,7 +186,7 @@ fn checked(
         }
     };
     let mut list: Vec<PartPair> = pairs.into_iter().map(part_pair).filter(matters).collect();
-    // Two parts and two of their images are the same pair.
+    // The same pair of parts may also be found as a pair of their images.
     list.sort_unstable();
     list.dedup();
     Ok(list)
@@ -205,7 +205,8 @@ pub(super) fn usual_skin(bodies: &[Body]) -> f64 {
 
 impl Blocks {
     /// Boxes of all parts for a [`Broadphase`], grown by half the skin, for fast blocks by more, and by
-    /// half the range of the films. In a periodic domain they are moved into the period, followed by the images that reach other boxes.
+    /// half the range of the films. In a periodic domain they are moved into the period, followed by the images that reach
+    /// other boxes.
     pub fn aabbs(&self) -> Vec<Aabb> {
         let mut aabbs = self.part_aabbs();
         if let Some(periods) = &self.periods {
@@ -240,8 +241,9 @@ impl Blocks {
         self.periods.as_ref().map(|periods| periods.period)
     }
 
-    /// Shifts to those images of the second of two blocks, `separation` (m) from the first, that are within `range` (m) of it
-    /// along each axis, m. Along an axis that one of them fills, only the shift to the nearest image, as the others lie in it.
+    /// Shifts, m, to those images of the second of two blocks, at `separation` (m) from the first, that are within `range`
+    /// (m) of the first along each axis. Along an axis that one of the blocks fills, only the shift to the nearest image,
+    /// since the filling block is the same in all periods.
     pub(crate) fn image_shifts(
         &self,
         blocks: [usize; 2],
@@ -272,7 +274,7 @@ impl Blocks {
             .collect()
     }
 
-    /// The images of all boxes.
+    /// The image of each box.
     fn part_images(&self, periods: &Periods) -> Vec<Image> {
         periods.images(&self.states, &self.parts.block, &mut self.part_aabbs())
     }
@@ -289,7 +291,7 @@ impl Blocks {
             )
     }
 
-    /// Sets the candidate pairs of [`Blocks::aabbs`]. Pairs keep their caches and contacts.
+    /// Sets the candidate pairs, as indices of [`Blocks::aabbs`]. Known pairs keep their caches and contacts.
     ///
     /// # Errors
     /// [`Error::Argument`] if they are not sorted pairs of boxes.
@@ -323,7 +325,7 @@ impl Blocks {
 
     /// Time for which the list must remain complete, s.
     fn pair_horizon(&self) -> f64 {
-        // Without free blocks no step is too long, and there are no pairs.
+        // Without free blocks the step is not limited, and there are no pairs.
         if self.time_step.is_finite() {
             self.time_step
         } else {
@@ -369,7 +371,7 @@ impl PlacedParts {
         self.placed.iter().zip(&self.block).map(aabb).collect()
     }
 
-    /// Moves the parts of the blocks that move.
+    /// Updates the parts of moving blocks.
     pub fn place_moving(&mut self, bodies: &[Body], states: &[State], strains: &[Strain]) {
         let moves = |block: usize| !bodies[block].is_fixed() && !states[block].asleep;
         let moving = || (0..bodies.len()).filter(|&block| moves(block));
@@ -409,7 +411,7 @@ impl PlacedParts {
     }
 }
 
-/// Moves one part, the `index`th of all.
+/// Places one part, the `index`th of all.
 fn place(body: &Body, index: usize, pose: &Pose, placed: &mut Placed) {
     let part = &body.shape.parts()[index - body.parts.start];
     match &part.form {
@@ -418,7 +420,7 @@ fn place(body: &Body, index: usize, pose: &Pose, placed: &mut Placed) {
     }
 }
 
-/// Corners of the box along the axes around a part, m.
+/// Lower and upper corner of the axis-aligned bounding box of a part, m.
 fn bounds(placed: &Placed) -> [DVec3; 2] {
     if placed.faces.is_empty() {
         let r = DVec3::splat(placed.radius);

@@ -1,4 +1,4 @@
-//! Checks of a setup.
+//! Validation of a [`Setup`].
 
 use super::{
     Block, Deformable, Guide, Motion, Setup, Sleep,
@@ -9,7 +9,7 @@ use crate::{Error, Result, geometry::Form, rock::law::Joint};
 use glam::DVec3;
 
 /// # Errors
-/// [`Error::Argument`] with the place of a number that is not finite and greater than 0.
+/// [`Error::Argument`] at `place` if the number is not finite and greater than 0.
 pub(super) fn positive(place: &str, value: f64, unit: &str) -> Result<()> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
@@ -19,7 +19,7 @@ pub(super) fn positive(place: &str, value: f64, unit: &str) -> Result<()> {
 }
 
 /// # Errors
-/// [`Error::Argument`] naming the first number that cannot be used.
+/// [`Error::Argument`] naming the first invalid value.
 pub(super) fn check(setup: &Setup) -> Result<()> {
     if !setup.gravity.is_finite() {
         let message = format!("{} must be finite", setup.gravity);
@@ -85,7 +85,7 @@ pub(super) fn check(setup: &Setup) -> Result<()> {
         .try_for_each(|guide| check_guide(setup, guide))
 }
 
-/// A guided block is free and rigid, and starts along its guide.
+/// Checks that a guided block is free and rigid, and starts along its guide.
 fn check_guide(setup: &Setup, guide: &Guide) -> Result<()> {
     let Some(block) = setup.blocks.get(guide.block) else {
         let (number, known) = (guide.block, setup.blocks.len());
@@ -155,7 +155,7 @@ fn check_block(setup: &Setup, index: usize) -> Result<()> {
     Ok(())
 }
 
-/// The joint of every two materials.
+/// The joint of each pair of materials.
 pub(super) fn joints(setup: &Setup) -> Joints {
     let materials = setup.materials.len();
     let mut table = Vec::with_capacity(materials * materials);
@@ -174,7 +174,7 @@ pub(super) fn joints(setup: &Setup) -> Joints {
     }
 }
 
-/// Tolerance of the speed of a fixed point, relative to the speeds of which it is the sum.
+/// Speed of a fixed point that is attributed to rounding, as a share of the speeds of which it is the sum.
 const SPEED_ROUNDING: f64 = 1e-12;
 
 /// # Errors
@@ -198,7 +198,7 @@ fn check_deformable(setup: &Setup, block: &Block, place: &str) -> Result<()> {
         [part] if matches!(part.form, Form::Convex(_)) => {}
         [_] => {
             return refuse(
-                "a sphere cannot deform, since its contacts want it round; give a polyhedron, or make it rigid"
+                "a sphere cannot deform, since its contacts need it round; give a polyhedron, or make it rigid"
                     .into(),
             );
         }

@@ -31,13 +31,13 @@ pub(super) struct Contact {
     pub pressure_centre: DVec3,
     /// Unit normal from the first part to the second.
     pub normal: DVec3,
-    /// m.
+    /// Overlap, m.
     pub overlap: f64,
     /// Area over which the springs act, m²; 0 while the pair touches within rounding.
     pub area: f64,
     /// Area of the section itself, over which the strength acts, m².
     pub section: f64,
-    /// m.
+    /// Largest extent of the section, m.
     pub width: f64,
     /// Largest overlap for which the blocks count as hard, m.
     pub limit: f64,
@@ -173,9 +173,9 @@ impl ContactPoint {
 /// Sums over the contacts of one block.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactSum {
-    /// N.
+    /// Force, N.
     pub force: DVec3,
-    /// About its centroid, N m.
+    /// Torque about the centroid, N m.
     pub torque: DVec3,
     /// Stiffness of the springs that act on it.
     pub stiffness: Stiffness,

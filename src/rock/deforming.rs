@@ -123,7 +123,7 @@ pub(super) struct StepParams {
 }
 
 impl DeformingBlocks {
-    /// Adds the block `index`, if it deforms; returns its index among the deformable blocks.
+    /// Adds the block `index`, if it is deformable; returns its index among the deformable blocks, or [`RIGID`].
     pub fn add(&mut self, index: usize, block: &Block, material: &Material) -> u32 {
         let (Some(deformable), Some(elastic)) = (&block.deformable, material.elastic) else {
             return RIGID;
@@ -174,13 +174,13 @@ impl DeformingBlocks {
         self.list.is_empty()
     }
 
-    /// The deformable block of `body`, with its state.
+    /// Constants and state of the deformable block `body`; `None` if it is rigid.
     pub fn of(&self, body: &Body) -> Option<(&Deforming, &Strain)> {
         let k = body.deforming as usize;
         (body.deforming != RIGID).then(|| (&self.list[k], &self.strains[k]))
     }
 
-    /// The deformation of `body` in the present step.
+    /// Trial state of the deformable block `body` in the present step; `None` if it is rigid.
     pub fn of_next(&self, body: &Body) -> Option<&Strain> {
         (body.deforming != RIGID).then(|| &self.next[body.deforming as usize])
     }
@@ -365,10 +365,10 @@ impl Deforming {
             ..*strain
         };
         let inverse = next.deformation.inverse();
-        // Without a rotation the step is refused.
+        // An inverted block has no rotation; its step is refused.
         if next.is_sound() {
             let rotation = integrate::polar(next.deformation);
-            // The one of the two quaternions that is continuous.
+            // Of the two quaternions ±q, the one that continues the last rotation.
             let follows = rotation.dot(before.rotation) >= 0.0;
             state.rotation = if follows { rotation } else { -rotation };
         }
@@ -425,24 +425,24 @@ impl Blocks {
         !self.deforming.is_empty()
     }
 
-    /// Cauchy stress in a block that deforms, along the axes of the world, Pa; tension is positive.
+    /// Cauchy stress in a deformable block, along the axes of the world, Pa; tension is positive.
     pub fn stress(&self, block: usize) -> Option<DMat3> {
         let (one, strain) = self.deforming.of(&self.bodies[block])?;
         Some(one.affine.stress(strain.deformation))
     }
 
-    /// Von Mises stress in a block that deforms, Pa.
+    /// Von Mises stress in a deformable block, Pa.
     pub fn von_mises(&self, block: usize) -> Option<f64> {
         self.stress(block).map(law::von_mises)
     }
 
-    /// Strain E = ½(FᵀF − 1) of a block that deforms, in its own frame.
+    /// Strain E = ½(FᵀF − 1) of a deformable block, in its own frame.
     pub fn strain(&self, block: usize) -> Option<DMat3> {
         let (one, strain) = self.deforming.of(&self.bodies[block])?;
         Some(one.affine.strain(strain.deformation))
     }
 
-    /// Strain energy of a block that deforms, J.
+    /// Strain energy of a deformable block, J.
     pub fn strain_energy(&self, block: usize) -> Option<f64> {
         let (one, strain) = self.deforming.of(&self.bodies[block])?;
         Some(one.affine.strain_energy(strain.deformation))

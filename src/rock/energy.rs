@@ -1,4 +1,5 @@
-//! The energy ledger: energies of the blocks and works on them. Works follow the trapezoidal rule over a step, as in velocity Verlet.
+//! The energy ledger: energies of the blocks and works on them. Works follow the trapezoidal rule over a step, as in
+//! velocity Verlet.
 
 use super::{
     Body,
@@ -38,7 +39,7 @@ pub struct EnergyLedger {
     pub film: f64,
     /// Energy of springs whose contact ended: lost by the contact law, or gained if negative.
     pub lost: f64,
-    /// Work done by driven blocks.
+    /// Work done on the blocks by the prescribed motion of the driven ones.
     pub driven: f64,
     /// Work done on the blocks by external loads, point loads and accelerations.
     pub loads: f64,
@@ -53,7 +54,7 @@ impl EnergyLedger {
             - self.loads
     }
 
-    /// Dissipated energy.
+    /// Energy removed for good: dissipated, or lost with the contacts that ended.
     pub fn taken(&self) -> f64 {
         self.friction + self.dashpot + self.mass_damping + self.film + self.lost
     }

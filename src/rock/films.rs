@@ -1,10 +1,11 @@
 //! Films of fluid between blocks that nearly touch, which resist the closing, opening and tilting of the gap.
 //!
-//! A film resists the relative motion u of a pair along one direction with the force c u, and c diverges
+//! A film resists the relative velocity u of a pair in one mode with the force c u, and c diverges
 //! as the gap closes. Its impulses are those of the implicit Euler step for all films together,
-//! λ = −c (Δt/2) u(λ), on the velocities in the middle of a step and on those at its end: whatever the step, they are
-//! equal and opposite, only dissipate energy, and let a load W close a gap at the velocity W/c. The part of c that corrects the delay
-//! of loads (see [`law::LoadDelay`]) acts on u less its mean over the last steps, and may give energy for that long.
+//! λ = −c (Δt/2) u(λ), on the velocities in the middle of a step and on those at its end: for any step, they are
+//! equal and opposite, only dissipate energy, and let a load W close a gap at the velocity W/c. The part of c that
+//! corrects the delay of loads (see [`law::LoadDelay`]) acts on u less its mean over the last steps, and may supply
+//! energy over that time.
 
 use super::{
     Body,
@@ -24,23 +25,23 @@ const ITERATIONS_PER_FILM: usize = 3;
 /// Index that marks a block without films.
 const NO_BODY: u32 = u32::MAX;
 
-/// One mode, closing or tilt, in which one gap resists.
+/// One mode of motion, closing or tilting, that a gap resists.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Film {
     pub blocks: [u32; 2],
     /// Direction in which the second block moves away from the first; zero for a tilt.
     pub normal: DVec3,
-    /// Factor of the spin of each block: r × n, m, or the axis of a tilt.
+    /// Lever arm of the spin of each block: r × n, m, or the axis of a tilt.
     pub arms: [DVec3; 2],
-    /// N s/m, or N m s.
+    /// Resistance c, N s/m, or N m s for a tilt.
     pub resistance: f64,
     /// The part of it that acts on changes of the velocity only.
     pub delayed: f64,
 }
 
 impl Film {
-    /// The films in a thin gap between two blocks with these centroids (m).
+    /// The films in a thin gap between two blocks with the centroids `centres` (m).
     pub fn of(
         thin_gap: &ThinGap,
         law: &law::Film,
@@ -82,11 +83,11 @@ impl Film {
 /// Impulse of films on a block in half a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct FilmImpulse {
-    /// m/s.
+    /// Change of velocity, m/s.
     pub velocity: DVec3,
-    /// Of angular momentum about the centroid, kg m²/s.
+    /// Change of angular momentum about the centroid, kg m²/s.
     pub momentum: DVec3,
-    /// Impulse on it, whether it moves or not, N s.
+    /// Impulse on the block, whether it can move or not, N s.
     pub impulse: DVec3,
 }
 
@@ -98,15 +99,15 @@ struct FilmBody {
     spin: DVec3,
     /// Mean velocity and spin over the last steps.
     mean: [DVec3; 2],
-    /// 1/kg; 0 for a block that impulses do not move.
+    /// Inverse mass, 1/kg; 0 for a block that impulses do not move.
     inverse_mass: f64,
-    /// Change of velocity and spin by a direction of the impulses.
+    /// Change of velocity and spin by the search direction of the impulses.
     direction_response: [DVec3; 2],
     push: FilmImpulse,
 }
 
-/// A film of the system (1/κ + J M⁻¹ Jᵀ) λ = −(u − s ū), κ = c Δt/2, s being the delayed share of c and ū the mean velocity, solved
-/// by conjugate gradients (Hestenes & Stiefel 1952).
+/// The row of one film in the system (1/κ + J M⁻¹ Jᵀ) λ = −(u − s ū), κ = c Δt/2, s being the delayed share of c and ū
+/// the mean velocity, solved by conjugate gradients (Hestenes & Stiefel 1952).
 #[derive(Clone, Copy, Debug)]
 struct Row {
     film: Film,
@@ -114,7 +115,7 @@ struct Row {
     ends: [usize; 2],
     /// Relative velocity at the start of the half step.
     before: f64,
-    /// The part of it on which the resistance does not act.
+    /// The part s ū of the relative velocity on which the resistance does not act.
     steady: f64,
     /// Change of the spin of each block by a unit impulse.
     spin_response: [DVec3; 2],
@@ -123,7 +124,7 @@ struct Row {
     impulse: f64,
     residual: f64,
     direction: f64,
-    /// The system times the direction.
+    /// The matrix of the system times the direction.
     image: f64,
 }
 
@@ -193,7 +194,7 @@ impl Films {
         }
     }
 
-    /// All blocks that have films, and the forces of these, N.
+    /// All blocks with films, and the forces of the films on them, N.
     pub fn forces(&self) -> impl Iterator<Item = (usize, DVec3)> + '_ {
         let half = 0.5 * self.dt;
         self.film_bodies
@@ -201,7 +202,7 @@ impl Films {
             .map(move |film_body| (film_body.block, film_body.push.impulse / half))
     }
 
-    /// The films of a half step, and the present motion of their blocks.
+    /// Sets up the films of a half step, and the present motion of their blocks.
     fn begin(&mut self, bodies: &[Body], states: &[State], contacts: &ContactList) {
         for film_body in self.film_bodies.drain(..) {
             self.body_of_block[film_body.block] = NO_BODY;
@@ -314,7 +315,7 @@ impl Films {
         self.apply()
     }
 
-    /// Multiplies the system with the direction, and returns the product of both.
+    /// Multiplies the matrix of the system by the direction, and returns the scalar product of the result and the direction.
     fn images(&mut self, half: f64) -> f64 {
         for film_body in &mut self.film_bodies {
             film_body.direction_response = [DVec3::ZERO; 2];
@@ -343,8 +344,8 @@ impl Films {
         product
     }
 
-    /// Adds up the impulses per block and returns the energy that they dissipate, J, with the mean of the velocities
-    /// at the start and at the end of the half step.
+    /// Applies the impulses to the blocks, and returns the energy that they dissipate, J: the work on the mean of the
+    /// velocities at the start and at the end of the half step.
     fn apply(&mut self) -> f64 {
         for row in &self.rows {
             for (k, sign) in [(0, -1.0), (1, 1.0)] {

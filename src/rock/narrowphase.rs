@@ -53,14 +53,14 @@ pub(super) struct Narrowphase<'a> {
     pub bonding: bool,
     /// Largest overlap, as a share of the smaller distance from centroid to face.
     pub largest_overlap: f64,
-    /// Least area of a contact's springs, as a share of the square of twice that distance.
+    /// Smallest area of a contact's springs, as a share of the square of twice that distance.
     pub corner_area: f64,
     /// Fluid in thin gaps.
     pub film: Option<&'a law::Film>,
     pub periods: Option<&'a Periods>,
 }
 
-/// The joint of every two materials.
+/// The joint of each pair of materials.
 #[derive(Clone, Debug)]
 pub(super) struct Joints {
     pub materials: u32,
@@ -73,7 +73,8 @@ impl Joints {
     }
 }
 
-/// Resolves all `pairs` into `next`, with their contacts in `found`. The result does not depend on the number of threads.
+/// Resolves all `pairs`; writes the updated pairs to `next` and their contacts to `found`. The result does not depend on
+/// the number of threads.
 ///
 /// # Errors
 /// The error of the first pair that cannot be resolved.
@@ -107,7 +108,7 @@ pub(super) fn resolve(
 }
 
 impl Narrowphase<'_> {
-    /// The chunk `n` of the pairs.
+    /// Resolves the chunk `n` of the pairs.
     fn chunk(
         &self,
         resolver: &mut Resolver,
@@ -128,7 +129,7 @@ impl Narrowphase<'_> {
                 None => NO_CONTACT,
             };
             if let (Some(before), None) = (before, contact) {
-                // Its force has acted during the first half of the step.
+                // The force of the ended contact has acted during the first half of the step.
                 let stored = before.stored + 0.5 * self.time_step * before.power;
                 found.ended.push(stored);
             }
@@ -146,7 +147,7 @@ impl Narrowphase<'_> {
     ) -> Result<Option<Contact>> {
         let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
         if blocks.iter().all(|&b| self.mid_steps[b as usize].rests) {
-            // Without relative motion there is no slip.
+            // Blocks at rest do not slip.
             return Ok(before.map(|contact| Contact {
                 force: law::Force {
                     friction: 0.0,
@@ -252,7 +253,7 @@ impl Narrowphase<'_> {
         self.joints.of(a, b)
     }
 
-    /// Relative motion of two blocks at the point `at` (m) of the first; the second is its image, shifted by
+    /// Relative motion of two blocks at the point `at` (m) of the first. The second block is shifted to its image by
     /// `image_shift` (m).
     pub(super) fn motion(&self, blocks: [u32; 2], at: DVec3, image_shift: DVec3) -> law::Motion {
         let [a, b] = blocks.map(|block| &self.mid_steps[block as usize]);
@@ -440,7 +441,7 @@ impl ResolverPool {
         sum
     }
 
-    /// Creates one for each of the `threads`.
+    /// Creates resolvers until there is one for each of the `threads`.
     pub fn prepare(&mut self, threads: usize) {
         let options = self.options;
         let new = || Mutex::new(Resolver::new(options));

@@ -1,6 +1,6 @@
 //! Periodic domains, and the images of blocks in them.
 //!
-//! Blocks keep the coordinates of the world, however many periods away. The broadphase gets each part in
+//! Blocks keep unwrapped world coordinates, any number of periods away. The broadphase gets each part in
 //! the first period and, if its box reaches other boxes there, its images in adjacent periods. A pair is two parts and the
 //! number of periods by which the second is shifted to its image near the first.
 
@@ -8,7 +8,7 @@ use super::{Body, body::State};
 use crate::{Error, Result, rock::broadphase::Aabb};
 use glam::DVec3;
 
-/// Tolerance for a block that fills a period: the rounding of coordinates in scenes.
+/// Length of a block in periods above which it counts as longer than the period: 1 plus the rounding of scenes.
 const FILLED: f64 = 1.0 + 1e-9;
 
 /// A box that is periodic along some axes.
@@ -90,10 +90,10 @@ impl Period {
         Err(Error::argument("period", message))
     }
 
-    /// Axes along which a body at the start extends over more than the period. A fixed body then fills all periods.
+    /// Axes along which a body is longer than the period at the start. A fixed body of this length is the same in all periods.
     ///
     /// # Errors
-    /// [`Error::Argument`] if it can move: it would overlap its own image.
+    /// [`Error::Argument`] if such a body can move: it would overlap its own image.
     pub(super) fn filled(
         &self,
         body: &Body,
@@ -119,7 +119,7 @@ impl Period {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Image {
     pub part: u32,
-    /// Number of periods by which it is shifted.
+    /// Number of periods by which it is moved back.
     pub offset: [i32; 3],
 }
 

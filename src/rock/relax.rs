@@ -12,14 +12,14 @@ use crate::{
 use glam::DVec3;
 
 impl Blocks {
-    /// Pushes blocks apart along their contact normals, each by its share of the two masses, pair after
-    /// pair, until none overlaps by more than [`Setup::start_overlap`](super::Setup::start_overlap);
-    /// no block rotates, fixed and driven blocks do not move, and velocities do not change.
+    /// Pushes overlapping blocks apart along their contact normals, pair after pair, until no overlap exceeds
+    /// [`Setup::start_overlap`](super::Setup::start_overlap). The blocks of a pair move in inverse proportion to their
+    /// masses. No block rotates, fixed and driven blocks do not move, and velocities do not change.
     ///
     /// Returns the number of sweeps over all pairs, at most `sweeps`.
     ///
     /// # Errors
-    /// [`Error::Overlaps`] with the overlap left after `sweeps`; the blocks keep their last positions. The errors of
+    /// [`Error::Overlaps`] with the overlaps left after `sweeps`; the blocks keep their last positions. Also the errors of
     /// the broadphase.
     pub async fn relax(
         &mut self,

@@ -9,7 +9,7 @@ use crate::{
 use glam::{DMat3, DQuat, DVec3};
 use std::sync::Arc;
 
-/// Blocks at the start, SI.
+/// Initial blocks and the parameters of their simulation, SI.
 #[derive(Clone, Debug)]
 pub struct Setup {
     /// The blocks.
@@ -22,23 +22,23 @@ pub struct Setup {
     pub gravity: DVec3,
     /// Mass damping α, 1/s.
     pub damping: f64,
-    /// Step, s. Without it the step is [`USUAL_SHARE`](crate::rock::law::USUAL_SHARE) of the stability bound,
-    /// and gets shorter when contacts stiffen.
+    /// Time step, s. By default [`USUAL_SHARE`](crate::rock::law::USUAL_SHARE) of the stability bound,
+    /// shortened when contacts stiffen.
     pub time_step: Option<f64>,
-    /// Distance below which pairs are candidates, m. Without it a tenth of the mean radius of the parts
+    /// Distance below which pairs are candidates, m. By default a tenth of the mean radius of the parts
     /// that can move.
     pub skin: Option<f64>,
     /// When blocks at rest fall asleep; `None`: never.
     pub sleep: Option<Sleep>,
-    /// Largest overlap at the start, as a share of the smaller block's distance from centroid to face.
+    /// Largest overlap at the start, as a share of the smaller centroid-to-face distance of the two blocks.
     pub start_overlap: f64,
     /// Largest overlap later on, as a share of the same distance; above a tenth the blocks no longer count as
     /// hard. Fast blocks of low stiffness may need more.
     pub largest_overlap: f64,
-    /// Least area of the springs of a contact, as a share of (2d)², d being the same distance.
+    /// Smallest area of the springs of a contact, as a share of (2d)², d being the same distance.
     ///
-    /// The area of a corner or an edge begins at zero: a corner of a cube that sinks by u presses with
-    /// 1.46 k_n u³. A cube of 1 m of rock and 100 MPa/m sinks by 5.6 cm if it stands on its corner, and by
+    /// The contact area of a corner or an edge starts at zero: a cube corner that penetrates by u exerts a force of
+    /// 1.46 k_n u³. A rock cube of 1 m with 100 MPa/m penetrates by 5.6 cm if it stands on its corner, and by
     /// a quarter of a millimetre on its face; a real corner is crushed until it carries the load. With a
     /// value of 1/4, the share of each of the four corners of a square face, a corner is as stiff as
     /// that part of the face from the first touch. Contacts of a larger area do not change; cohesion
@@ -48,13 +48,13 @@ pub struct Setup {
     pub film: Option<Film>,
     /// The periodic box, if any: blocks then also touch the images of others.
     pub period: Option<Period>,
-    /// Free rigid blocks on rails.
+    /// Guides (frictionless rails) of free rigid blocks.
     pub guides: Vec<Guide>,
 }
 
 impl Default for Setup {
-    /// No blocks; gravity of 9.81 m/s² along −z, no mass damping, no sleep, overlaps of 1 % at the start
-    /// and of 10 % later; the area of the section for corners, too; no fluid in the gaps.
+    /// No blocks; gravity of 9.81 m/s² along −z, no mass damping, no sleep, overlaps of at most 1 % at the start
+    /// and 10 % later, no smallest area for corners, no fluid in the gaps.
     fn default() -> Self {
         Self {
             blocks: Vec::new(),
@@ -75,8 +75,8 @@ impl Default for Setup {
     }
 }
 
-/// A frictionless rail on which a free rigid block slides without rotation. The rail takes up the forces across it and does no
-/// work.
+/// A frictionless rail on which a free rigid block slides without rotation. The rail takes up the forces across it and
+/// does no work.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guide {
     /// Index in [`Setup::blocks`].
@@ -139,7 +139,7 @@ impl Default for Deformable {
 pub struct FixedPoint {
     /// The point, from the centroid in the block's own frame, m.
     pub point: DVec3,
-    /// Along which axes of the world it is held.
+    /// World axes along which it is held.
     pub axes: [bool; 3],
 }
 
@@ -199,12 +199,12 @@ impl Block {
     reason = "one a block, whose shape and contacts are larger by far"
 )]
 pub enum Motion {
-    /// Forces.
+    /// By forces.
     #[default]
     Free,
-    /// Nothing.
+    /// Not at all.
     Fixed,
-    /// Formulas of t, whatever the forces.
+    /// By formulas of t, regardless of the forces.
     Driven {
         /// Velocity of the centroid, m/s.
         velocity: [Formula; 3],
@@ -247,8 +247,9 @@ pub struct PairMaterial {
 /// When a block falls asleep: it then does not move, and the contacts among sleeping blocks keep
 /// their forces without being computed.
 ///
-/// A sleeping block wakes as soon as the force of a moving neighbour on it, or its load, changes by more than
-/// `change` of its weight. Positions differ from those without sleep by about `speed` × (time asleep).
+/// A sleeping block would have moved by less than `speed` × the time for which it would still have moved. It wakes as
+/// soon as the force of a moving neighbour on it, or its load, changes by more than `change` of its weight. Positions
+/// therefore differ from those without sleep by about `speed` × (time asleep).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sleep {
     /// Speed of its fastest point below which a block rests, m/s.

@@ -37,7 +37,7 @@ impl Snapshot {
         self.time
     }
 
-    /// Bytes of memory that it takes.
+    /// Size in memory, bytes.
     pub fn bytes(&self) -> u64 {
         let lists = [
             size_of_val(&*self.states),
@@ -76,8 +76,8 @@ impl Blocks {
         snapshot.strains.clone_from(&self.deforming.strains);
     }
 
-    /// Restores a state of the same setup: the following steps have the same bits as when it was
-    /// taken.
+    /// Restores an earlier or later state of the same setup. The following steps have the same bits as those that
+    /// followed when it was taken.
     ///
     /// # Errors
     /// [`Error::Argument`] if the state belongs to other blocks.
@@ -111,7 +111,7 @@ impl Blocks {
                 .all(|film| film.blocks.iter().all(|&block| block < blocks));
         if !fits {
             let message = format!(
-                "it holds {} blocks, {} of them deformable, these are {} and {} of another scene",
+                "it is of another scene: it holds {} blocks, {} of them deformable, this one {} and {}",
                 snapshot.states.len(),
                 snapshot.strains.len(),
                 self.len(),

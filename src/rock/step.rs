@@ -18,7 +18,7 @@ use std::time::Instant;
 pub struct StepTimes {
     /// Number of steps timed.
     pub steps: u64,
-    /// Candidate pairs.
+    /// Update of the candidate pairs.
     pub broadphase: f64,
     /// Contacts of the pairs and their forces.
     pub contact: f64,
@@ -31,7 +31,7 @@ pub(super) fn is_time(until: f64) -> Result<()> {
     if until.is_finite() {
         return Ok(());
     }
-    let message = format!("{until} s is no time to go to; give a finite one");
+    let message = format!("{until} s is not a finite time; give a finite one");
     Err(Error::argument("until", message))
 }
 
@@ -45,13 +45,13 @@ pub(super) struct Substep {
 }
 
 impl Blocks {
-    /// One step of [`Blocks::time_step`].
+    /// Advances by one step of [`Blocks::time_step`].
     ///
     /// # Errors
     /// [`Error::Overlaps`] if blocks overlap at the start, [`Error::TimeStep`] if the step is too long for
-    /// the contacts, [`Error::DeepOverlap`] if two blocks penetrate too deeply,
-    /// [`Error::NotFinite`] if the pose of a block is not finite, [`Error::Argument`] if a new list of pairs is needed first, or if a block
-    /// moves by more than half its width and could pass through another one. After an error the state is that before the step.
+    /// the contacts, [`Error::DeepOverlap`] if two blocks penetrate too deeply, [`Error::NotFinite`] if the state of a
+    /// block is not finite, [`Error::Argument`] if a new list of pairs is needed first, or if a block moves by more than
+    /// half its width and could pass through another one. After an error the state is that before the step.
     pub fn step(&mut self) -> Result<()> {
         self.step_by(Substep {
             dt: self.time_step,
@@ -59,7 +59,7 @@ impl Blocks {
         })
     }
 
-    /// One of equal steps, at most as long as the time step, to the time `until`, s.
+    /// Advances by the next of the equal steps, at most as long as the time step, to the time `until`, s.
     ///
     /// # Errors
     /// The errors of [`Blocks::step`], and [`Error::Argument`] if that time is in the past.
@@ -81,23 +81,23 @@ impl Blocks {
         }
     }
 
-    /// Equal steps of at most the time step that lead to the time `until`, s.
+    /// Number of equal steps of at most the time step to the time `until`, s.
     pub(crate) fn steps_to(&self, until: f64) -> f64 {
         let left = until - self.time;
-        // The rounding of a whole number of steps must not add a step.
+        // Rounding above a whole number of steps must not add a step.
         (left / self.time_step * (1.0 - 1e-12)).ceil().max(1.0)
     }
 
     fn step_by(&mut self, substep: Substep) -> Result<()> {
         if self.wants_pairs() {
             let message =
-                "a step wants pairs first: find those of aabbs() and give them to set_pairs";
+                "a step needs new pairs first: find those of aabbs() and pass them to set_pairs";
             return Err(Error::argument("pairs", message));
         }
         self.step_known(substep)
     }
 
-    /// A step whose list of pairs is known to be complete.
+    /// Advances by one step, with a list of pairs that is known to be complete.
     pub(super) fn step_known(&mut self, Substep { dt, end }: Substep) -> Result<()> {
         if !dt.is_finite() {
             let message = "nothing limits the step, since no block is free; give time_step";
@@ -122,7 +122,7 @@ impl Blocks {
         Ok(())
     }
 
-    /// Finds the contacts of the first step.
+    /// Finds the contacts before the first step.
     fn start(&mut self) -> Result<()> {
         let all = self.bodies.iter().zip(&self.states);
         self.mid_steps.clear();
@@ -147,7 +147,7 @@ impl Blocks {
         Ok(())
     }
 
-    /// Kick, drift and the contacts there.
+    /// First kick, drift, and the contacts at the new poses.
     fn kick_drift(&mut self, dt: f64) -> Result<()> {
         let params = self.step_params(dt);
         self.film_work = self
@@ -234,7 +234,7 @@ impl Blocks {
         std::mem::swap(&mut deforming.strains, &mut deforming.next);
     }
 
-    /// A step of `dt` (s) from now.
+    /// Parameters of a step of `dt` (s) from now.
     fn step_params(&self, dt: f64) -> StepParams {
         StepParams {
             gravity: self.gravity,
@@ -244,7 +244,7 @@ impl Blocks {
         }
     }
 
-    /// Adds the works of an accepted step.
+    /// Adds the work of an accepted step.
     fn add_work(&mut self, params: StepParams) {
         let all = BodyStates {
             bodies: &self.bodies,
@@ -274,7 +274,7 @@ impl Blocks {
             .place_all(&self.bodies, &self.states, &self.deforming.strains);
     }
 
-    /// The error of a block whose pose at `time` (s) is not finite.
+    /// The error of a block whose state at `time` (s) is not finite, or that is inverted.
     fn not_finite(&self, number: usize, time: f64) -> Error {
         let strain = self.deforming.of_next(&self.bodies[number]);
         let crushed = strain.is_some_and(|strain| strain.deformation.determinant() <= 0.0);
@@ -307,8 +307,8 @@ impl Blocks {
         }
     }
 
-    /// The contacts of all pairs at the trial positions, and their sums. At the start faces are bonded, and overlaps have
-    /// no limit.
+    /// Finds the contacts of all pairs at the trial poses, and their sums. With `bonding`, at the start, faces that touch
+    /// are bonded and overlaps are not limited.
     fn find_contacts(&mut self, dt: f64, bonding: bool) -> Result<()> {
         let narrowphase = narrowphase::Narrowphase {
             bodies: &self.bodies,

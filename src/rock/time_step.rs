@@ -37,7 +37,7 @@ pub(super) fn of_shapes(
                     let (arm, width) = deforming.lever(body, arm, width);
                     sum.add(joint, HELD_SHARE * area, arm, width);
                 }),
-                // Six balls around it at an overlap of a tenth of the radius, the limit of penetration:
+                // Six spheres around it at an overlap of a tenth of the radius, the limit of penetration:
                 // sections of π r²/10 each.
                 Form::Sphere { radius } => {
                     let arm = part.offset + DVec3::X * *radius;
@@ -63,8 +63,8 @@ pub(super) fn of_sums(
     )
 }
 
-/// A contact at X of a block that deforms adds at most k(1/m + Xᵀ S⁻¹ X), which its lever represents; the
-/// largest eigenvalue of a sum is at most the sum of the largest eigenvalues.
+/// ω² and index of the stiffest free block. A contact at X of a deformable block adds at most k(1/m + Xᵀ S⁻¹ X), which
+/// its lever represents; the largest eigenvalue of a sum is at most the sum of the largest eigenvalues.
 fn stiffest(
     bodies: &[Body],
     deforming: &DeformingBlocks,
@@ -87,7 +87,7 @@ fn stiffest(
         )
 }
 
-/// Area, centroid and largest extent of each face.
+/// Calls `each` with the area, centroid and largest extent of each face.
 fn faces(shape: &Polyhedron, mut each: impl FnMut(f64, DVec3, f64)) {
     let vertices = shape.vertices();
     for corners in shape.loops() {
@@ -117,7 +117,7 @@ impl Blocks {
     pub(super) fn check_tunnelling(&self, dt: f64) -> Result<()> {
         let alone = self.bodies.len() < 2 && self.periods.is_none();
         if alone || !self.bodies.iter().any(Body::is_free) {
-            // There is no other block to touch.
+            // There is no other block, or no free one, to touch.
             return Ok(());
         }
         let all = each_block(&self.bodies, self.bodies.len()).zip(&self.states);

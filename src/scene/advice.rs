@@ -1,4 +1,4 @@
-//! Whether the lattice can carry the scene: what is refused, and what is only worth a warning.
+//! Checks whether the lattice can represent a scene: what is refused, and what is only worth a warning.
 
 use std::fmt;
 
@@ -11,27 +11,27 @@ use crate::units::Units;
 const MOST_MACH: f64 = 0.3;
 /// Above this Mach number the error of compressibility exceeds 2 %.
 const HIGH_MACH: f64 = 0.15;
-/// Above this share of the density the weight of the fluid changes what flows in it: drag and inertia by as much.
+/// Above this relative change of density the fluid's weight affects the flow: drag and inertia change by as much.
 const HIGH_COMPRESSION: f64 = 0.05;
 /// Range of τ − ½ in which the rates of Suga et al. (2015) are linearly stable at rest.
 pub const SUGA_EXCESS: std::ops::RangeInclusive<f64> = 4e-4..=0.059;
-/// Below this τ − ½ the viscosity drowns in the rounding of f32.
+/// Below this τ − ½ the viscosity is lost in the rounding of f32.
 const LEAST_TAU: f64 = 1e-6;
 /// Above this τ half-way walls and the discretisation lose accuracy quickly.
 const HIGH_TAU: f64 = 1.5;
-/// Above this τ the error of the lattice, which grows with τ², is larger than any flow: populations forget nothing.
+/// Above this τ the error of the lattice, which grows with τ², exceeds any flow: populations hardly relax.
 const MOST_TAU: f64 = 1e3;
-/// Above this Reynolds number of a cell the smallest eddies fall through the grid.
+/// Above this Reynolds number of a cell the grid does not resolve the smallest eddies.
 const HIGH_CELL_REYNOLDS: f64 = 30.0;
-/// Below this τ − ½ one relaxation time oscillates at walls and solids.
+/// Below this τ − ½ the operator with one relaxation time oscillates at walls and solids.
 const LOW_BGK_TAU: f64 = 0.01;
 
-/// Something that works but may disappoint.
+/// A setting that works but may give poor results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// The key to look at.
+    /// The key concerned.
     pub place: String,
-    /// What is the matter, and what would help, with numbers.
+    /// The problem and a remedy, with numbers.
     pub message: String,
 }
 
@@ -41,21 +41,21 @@ impl fmt::Display for Warning {
     }
 }
 
-/// What [`Scene::advise`] found that is not refused.
+/// Warnings about a scene, such as those of [`Scene::advise`].
 pub type Advice = Vec<Warning>;
 
 impl Scene {
-    /// Refuses what the lattice cannot carry at these `units`, and warns of what it carries badly.
+    /// Refuses what the lattice cannot compute at these `units`, and returns warnings about what it computes poorly.
     ///
     /// # Errors
-    /// A Mach number above 0.3; a relaxation time at which the collision operator is unstable.
+    /// A Mach number above 0.3; a relaxation time for which the collision operator is unstable or too inaccurate.
     pub fn advise(&self, units: &Units) -> Result<Advice> {
         let sampled = self.sampled_speed()?;
         let mut adviser = Adviser {
             scene: self,
             units,
             speed: self.numerics.velocity_scale.unwrap_or(0.0).max(sampled),
-            // Not τ less ½, which rounds what is small to nothing.
+            // Not computed as the difference of τ and ½, which would lose small values to rounding.
             excess: 3.0 * self.fluid.viscosity * units.time_step / units.cell.powi(2),
             step_key: if self.numerics.time_step.is_some() {
                 "numerics.time_step"
@@ -76,8 +76,8 @@ impl Scene {
         Ok(adviser.advice)
     }
 
-    /// By which part of the reference density the fluid is denser in one place than in another where its pressure is
-    /// what faces hold and the start has: Δp/(ρ c²), c being the speed of sound of the lattice.
+    /// Largest relative difference of density in the fluid that follows from the pressures of faces and of the initial state:
+    /// Δp/(ρ c²), c being the speed of sound of the lattice.
     ///
     /// # Errors
     /// If the formula of the pressure is not finite somewhere.
@@ -90,7 +90,7 @@ impl Scene {
 struct Adviser<'a> {
     scene: &'a Scene,
     units: &'a Units,
-    /// Largest speed that is known of, m/s.
+    /// Largest known speed, m/s.
     speed: f64,
     /// τ − ½: grows with the time step, and at a fixed Mach number with 1/cell.
     excess: f64,
@@ -107,12 +107,12 @@ impl Adviser<'_> {
         });
     }
 
-    /// Time step, s, at which τ − ½ is `wanted`.
+    /// Time step, s, for which τ − ½ is `wanted`.
     fn step_for(&self, wanted: f64) -> f64 {
         self.units.time_step * wanted / self.excess
     }
 
-    /// Cell, m, at which τ − ½ is `wanted` at the same Mach number.
+    /// Cell, m, for which τ − ½ is `wanted` at the same Mach number.
     fn cell_for(&self, wanted: f64) -> f64 {
         self.units.cell * self.excess / wanted
     }
@@ -124,7 +124,7 @@ impl Adviser<'_> {
             "use time_step ≤ {:.3e} s (mach = {usual})",
             self.units.time_step * usual / mach
         );
-        // Rounding: a scene that asks for 0.3 has it.
+        // Tolerates rounding: a scene may set exactly 0.3.
         if mach > MOST_MACH * (1.0 + 1e-9) {
             return Err(Error::scene(
                 self.step_key,
@@ -151,7 +151,7 @@ impl Adviser<'_> {
         if self.excess >= LEAST_TAU {
             return Ok(());
         }
-        // A longer step is a remedy as long as the flow stays slow on the lattice.
+        // A longer step is a remedy as long as the Mach number of the lattice stays low.
         let longer =
             self.units.mach(self.speed) * LEAST_TAU <= Numerics::DEFAULT_MACH * self.excess;
         let longer = match longer && self.scene.numerics.time_step.is_some() {
@@ -256,7 +256,7 @@ impl Adviser<'_> {
         }
     }
 
-    /// A wall model needs walls along the sides of cells.
+    /// Warns of exact surfaces: a wall model acts only on walls along the sides of cells.
     fn friction_of_surfaces(&mut self) {
         let scene = self.scene;
         if scene.numerics.wall_model == WallModel::None {
@@ -273,7 +273,7 @@ impl Adviser<'_> {
         }
     }
 
-    /// The lattice's fluid is a gas: it is denser where pressure is higher.
+    /// Warns if the weight of the fluid compresses it: on the lattice its density increases with pressure.
     fn weight(&mut self) {
         let (_, gradient) = self.scene.hydrostatic();
         let size = self.scene.domain.size;
@@ -294,7 +294,7 @@ impl Adviser<'_> {
         }
     }
 
-    /// The same of what faces and the start hold it at.
+    /// Warns if the pressures of faces or of the initial state compress the fluid.
     fn pressures(&mut self) -> Result<()> {
         let scene = self.scene;
         let faces = ("boundaries", scene.face_pressures());

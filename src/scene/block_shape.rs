@@ -114,12 +114,12 @@ pub struct PlaneFace {
     pub distance: f64,
 }
 
-/// Length of the unit of a mesh, m.
+/// Default length of the unit of a mesh, m.
 pub(super) fn metre() -> f64 {
     1.0
 }
 
-/// The numbers of the shape of the table `key`.
+/// Checks the numbers of the shape in the table `key`.
 pub(super) fn check(key: &str, shape: &BlockShape) -> Result<()> {
     match shape {
         BlockShape::Box { size } => {
@@ -151,7 +151,7 @@ pub(super) fn check(key: &str, shape: &BlockShape) -> Result<()> {
     }
 }
 
-/// The corners of a body with a volume.
+/// Checks the corners of a body, which must be enough for a volume.
 pub(super) fn points(key: &str, points: &[[f64; 3]]) -> Result<()> {
     for (number, point) in points.iter().enumerate() {
         finite(format!("{key}[{number}]"), point)?;
@@ -165,7 +165,7 @@ pub(super) fn points(key: &str, points: &[[f64; 3]]) -> Result<()> {
     Ok(())
 }
 
-/// The faces of a body with a volume.
+/// Checks the faces of a body, which must be enough for a volume.
 pub(super) fn half_spaces(key: &str, faces: &[PlaneFace]) -> Result<()> {
     for (number, face) in faces.iter().enumerate() {
         direction(format!("{key}[{number}].normal"), &face.normal)?;

@@ -176,7 +176,7 @@ fn rows_schema(generator: &mut SchemaGenerator) -> Schema {
     })
 }
 
-/// A part has only the keys of its placement, and no parts of its own.
+/// Checks that a part has only the keys of its shape and placement, and is not a compound.
 pub(super) fn check_part(part: &DeTable<'_>, kind: &str) -> Result<(), String> {
     const OF_BLOCKS: [&str; 12] = [
         "name",
@@ -203,7 +203,7 @@ pub(super) fn check_part(part: &DeTable<'_>, kind: &str) -> Result<(), String> {
     }
 }
 
-/// Largest number of blocks of a table: far more than runs in a day, so a typing error.
+/// Largest number of blocks of a table: far more than can be run in a day, so more is a typing error.
 const MOST: f64 = 1e7;
 
 impl Scene {

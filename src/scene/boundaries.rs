@@ -76,8 +76,9 @@ pub enum Boundary {
     },
     /// Outlet or inlet with a given pressure.
     Pressure {
-        /// Pressure above the reference pressure, Pa: a number, or a formula of t, such as that of a level. Default 0. A constant
-        /// `fluid.acceleration` along the face adds the hydrostatic pressure; the middle of the face has the given pressure.
+        /// Pressure above the reference pressure, Pa: a number or a formula of t, for example of a water level. Default 0. A
+        /// constant `fluid.acceleration` along the face adds the hydrostatic pressure; the middle of the face has the given
+        /// pressure.
         #[serde(default)]
         pressure: Formula,
         /// Whether the pressure is held exactly, so that waves are reflected. Default false: it is held on average, and waves
@@ -149,7 +150,7 @@ impl Turbulence {
             return refuse(
                 format!("{key}.length"),
                 format!(
-                    "is {} m; the grid carries eddies from one cell on, {cell} m here, better from four",
+                    "is {} m; the grid resolves eddies of at least one cell, {cell} m here, better four",
                     self.length
                 ),
             );
@@ -158,7 +159,7 @@ impl Turbulence {
     }
 }
 
-/// The velocity of a wall: formulas without variables.
+/// Reads the velocity of a wall: three formulas without variables.
 fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 3], D::Error> {
     match <[Formula; 3]>::deserialize(from)?.map(|f| f.constant()) {
         [Some(u), Some(v), Some(w)] => Ok([u, v, w]),
@@ -168,8 +169,8 @@ fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 3], D::Error> {
     }
 }
 
-/// Largest net flow through velocity faces, relative to what flows in and out: far above the
-/// rounding of the sums, and the density drifts by a millionth each time the fluid is replaced.
+/// Largest net flow through velocity faces, relative to the sum of inflow and outflow: far above the rounding of the
+/// sums; with it the density drifts by a millionth each time the fluid is replaced.
 const BALANCED: f64 = 1e-6;
 
 impl Scene {
@@ -249,7 +250,7 @@ impl Scene {
         Ok(())
     }
 
-    /// If all openings of a scene are velocity faces, inflow and outflow must be equal.
+    /// Checks that inflow and outflow are equal if all openings of a scene are velocity faces.
     pub(super) fn check_balance(&self) -> Result<()> {
         let is_pressure = |boundary: &Boundary| matches!(boundary, Boundary::Pressure { .. });
         let given: Vec<Face> = self

@@ -12,8 +12,8 @@ use crate::error::Result;
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]
 pub struct Coupling {
-    /// Time steps of the fluid (acoustic steps for particles) from one exchange to the next, at least 1. In between the blocks are at rest for
-    /// the fluid; then they move under the mean of the loads since the last exchange. Default 1.
+    /// Time steps of the fluid (acoustic steps for particles) from one exchange to the next, at least 1. In between, the blocks
+    /// are at rest for the fluid; then they move under the mean of the loads since the last exchange. Default 1.
     pub interval: u32,
     /// Whether blocks move under the mean of the loads of two successive time steps (Owen, Leonardi & Feng 2011).
     /// Cells inside a block reflect their populations in every step, so that single loads oscillate with
@@ -27,11 +27,10 @@ pub struct Coupling {
     /// the resistance of a film that is squeezed out, by lubrication theory with the viscosity of the fluid, down to gaps of a
     /// tenth of a cell, and a correction of the delay of loads between faces. Only on the lattice. Default true.
     pub lubrication: bool,
-    /// Hydraulic aperture of the closed joints of rigid blocks, m: the width of a slot with the same conductivity (cubic law, with the
-    /// viscosity of the fluid). The possible range depends on cell and viscosity: `riprap check` reports the default, and the error of a value
-    /// out of range gives the range. A wider joint must be a gap between the blocks. Only on the lattice, and
-    /// with `numerics.solid_operator = "holdych"`.
-    /// Default: as wide as possible.
+    /// Hydraulic aperture of the closed joints of rigid blocks, m: the width of a slot with the same conductivity (cubic law,
+    /// with the viscosity of the fluid). The possible range depends on cell and viscosity: `riprap check` reports the default,
+    /// and the error of a value out of range gives the range. A wider joint must be a gap between the blocks. Only on the
+    /// lattice, and with `numerics.solid_operator = "holdych"`. Default: as wide as possible.
     pub joint_aperture: Option<f64>,
 }
 
@@ -53,7 +52,7 @@ impl Scene {
         if coupling.interval == 0 {
             return refuse(
                 "coupling.interval",
-                "fluid and blocks would never meet; give a whole number of time steps, at least 1",
+                "fluid and blocks would never exchange loads; give a whole number of time steps, at least 1",
             );
         }
         if !(coupling.hold.is_finite() && coupling.hold >= 0.0) {
@@ -81,10 +80,10 @@ impl Scene {
         {
             return refuse(
                 "coupling.joint_aperture",
-                "only joints with numerics.solid_operator = \"holdych\" can be of one aperture; leave it out",
+                "only joints with numerics.solid_operator = \"holdych\" can have a given aperture; leave it out",
             );
         }
-        // Full cells throw back what is in them: a block that answers to single loads pushes itself ever harder.
+        // Full cells reflect their populations: a block that responds to single loads amplifies its own motion.
         let free = self.blocks.iter().any(|block| block.motion == Motion::Free);
         let reflects = self.numerics.solid_operator == SolidOperator::Holdych;
         if self.has_fluid()
@@ -94,7 +93,7 @@ impl Scene {
         {
             return refuse(
                 "coupling.average",
-                "free blocks swing ever more under the single loads of solid_operator = \"holdych\"; use average = \
+                "free blocks oscillate more and more under the single loads of solid_operator = \"holdych\"; use average = \
                  true, or solid_operator = \"noble\"",
             );
         }

@@ -90,7 +90,8 @@ impl Scene {
         }
     }
 
-    /// The material called `name`, or the first one, has what the deformable blocks of the table `key` need.
+    /// Checks that the material called `name`, or the first one, has the elasticity that the deformable blocks of the table
+    /// `key` need.
     pub(super) fn check_elastic(&self, key: &str, name: Option<&str>) -> Result<()> {
         let index = self.material(&format!("{key}.material"), name)?;
         if self.materials[index].youngs_modulus.is_some() {
@@ -107,7 +108,7 @@ impl Scene {
     }
 }
 
-/// Formulas of t that act on a block of this motion.
+/// Checks formulas of t that act on a block with this motion.
 fn acting(key: &str, formulas: &[Formula; 3], motion: Motion) -> Result<()> {
     if motion != Motion::Free {
         return refuse(

@@ -11,8 +11,8 @@ use crate::{error::Result, geometry::HalfSpace};
 /// Tolerance of points outside the domain, relative to its largest coordinate: some thousand times the rounding of f64.
 const ROUNDING: f64 = 1e-12;
 
-/// The computed box of space, divided into cubic cells if there is a fluid. The default has no
-/// extent: no domain.
+/// The computed box of space, divided into cubic cells for a fluid on a lattice. The default has no extent: no
+/// domain.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -20,16 +20,16 @@ pub struct Domain {
     /// Lower corner, m. Default (0, 0, 0).
     #[serde(default)]
     pub origin: [f64; 3],
-    /// Edges, m. With a fluid, each is a whole number of cells.
+    /// Edges, m. For a fluid on a lattice each is a whole number of cells.
     pub size: [f64; 3],
-    /// Edge of a cell, m. Required with a fluid.
+    /// Edge of a cell, m. Required for a fluid on a lattice.
     #[serde(default)]
     pub cell: f64,
 }
 
 impl Domain {
-    /// The box that reaches as far beyond the domain on each side as its longest edge: along a periodic axis that is
-    /// farther than any block there, and so the same in all periods.
+    /// The domain extended by its longest edge on each side. Along a periodic axis this is farther than any block reaches, so
+    /// the box is the same in all periods.
     pub(crate) fn beyond(&self) -> [HalfSpace; 6] {
         let longest = self.size.into_iter().fold(0.0, f64::max);
         let end = self.end();
@@ -49,7 +49,7 @@ impl Domain {
         })
     }
 
-    /// Whether there is one.
+    /// Whether the scene has a domain.
     pub fn is_given(&self) -> bool {
         *self != Self::default()
     }
@@ -188,7 +188,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Without fluid there are no cells, and there need not be a box.
+    /// Checks the domain of a scene without fluid, which has no cells and need not have a domain.
     fn check_dry_domain(&self) -> Result<()> {
         let domain = &self.domain;
         if !domain.is_given() {
@@ -202,7 +202,7 @@ impl Scene {
     }
 }
 
-/// `value` rounded to the digits that a user would type.
+/// `value` rounded to as many digits as a user would type.
 fn tidy(value: f64) -> f64 {
     format!("{value:.12e}").parse().unwrap_or(value)
 }

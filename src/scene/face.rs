@@ -68,7 +68,7 @@ impl Direction {
         Axis::ALL[self as usize / 2]
     }
 
-    /// As a scene has it: `-x`, `+x`, ….
+    /// Its name in a scene: `-x`, `+x`, ….
     pub fn name(self) -> &'static str {
         ["-x", "+x", "-y", "+y", "-z", "+z"][self as usize]
     }

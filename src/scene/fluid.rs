@@ -141,7 +141,7 @@ impl Scene {
             if given {
                 return refuse(
                     key,
-                    "says something about the fluid, and there is none; remove it or add [fluid]",
+                    "applies to the fluid, and there is none; remove it or add [fluid]",
                 );
             }
         }

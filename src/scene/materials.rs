@@ -25,12 +25,12 @@ pub struct Material {
     /// Cohesion c, Pa, of every contact. Default 0.
     #[serde(default)]
     pub cohesion: f64,
-    /// Tensile strength σ_t, Pa, of faces that touch at the start, parallel to 5° and with no gap between them (nor an
-    /// overlap beyond 1 % of the block). Such a bond carries tension over its initial area, bends as an elastic bed,
-    /// and breaks permanently if its tension reaches σ_t at an edge, or if it has slipped by σ_t/k_s; cohesion and
-    /// friction remain. Under tension its shear strength is the cohesion alone. A weight applied suddenly, such as that of
-    /// a block that hangs from the start, causes up to twice the static force; damping reduces it. Edges, corners and
-    /// spheres have no bonds, and no bond resists a twist about its normal by a spring. Default 0.
+    /// Tensile strength σ_t, Pa, of faces that touch at the start, parallel within 5° and with no gap between them (nor an
+    /// overlap beyond 1 % of the block). Such a bond carries tension over its initial area, resists bending like an elastic
+    /// foundation, and breaks permanently if its tension reaches σ_t at an edge, or if it has slipped by σ_t/k_s; cohesion and
+    /// friction remain. Under tension its shear strength is the cohesion alone. A weight applied suddenly, such as that of a
+    /// block that hangs from the start, causes up to twice the static force; damping reduces it. Edges, corners and spheres
+    /// have no bonds, and no bond has a spring against twist about its normal. Default 0.
     #[serde(default)]
     pub tensile_strength: f64,
     /// Damping ratio ζ of a contact's normal motion, no unit, from 0 to below 1. Default 0.1, at
@@ -64,7 +64,7 @@ impl Material {
     }
 }
 
-/// Contact properties of two materials, if they do not follow from each of them.
+/// Contact properties of a pair of materials, which replace those derived from each of them.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -139,7 +139,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The number of the material called `name`, or of the first one; `key` is where it is named.
+    /// The index of the material called `name`, or of the first one; `key` is the key that names it.
     pub(crate) fn material(&self, key: &str, name: Option<&str>) -> Result<usize> {
         if self.materials.is_empty() {
             return refuse(
@@ -166,7 +166,7 @@ impl Scene {
     }
 }
 
-/// Shear stiffness and friction, cohesion and tensile strength, and damping of a contact at `key`.
+/// Checks shear stiffness and friction, cohesion and tensile strength, and damping of a contact at `key`.
 fn law(
     key: &str,
     [shear, friction]: [Option<f64>; 2],

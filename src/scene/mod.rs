@@ -3,7 +3,7 @@
 //! A scene is a TOML file. Every table is a type of this module, every key a public field;
 //! [`Scene::schema`] is the same as a JSON schema.
 //!
-//! [`build`] makes the setups of the engines from a scene, in the units of [`Units::of`](crate::units::Units::of).
+//! [`build`] converts a scene to the setups of the engines, in the units of [`Units::of`](crate::units::Units::of).
 //!
 //! ```
 //! use riprap::{scene::{Scene, build::lattice_setup}, units::Units};
@@ -104,45 +104,45 @@ pub struct Scene {
     /// Title. Default the name of the file without its extension.
     #[serde(default)]
     pub title: String,
-    /// The box that is computed. A scene without fluid needs it only to cut half-spaces off, and may
-    /// leave it out.
+    /// The computed box. Without fluid it is optional, and required only by solids that are half-spaces, which it
+    /// bounds.
     #[serde(default)]
     pub domain: Domain,
-    /// What flows. Default nothing: then there must be blocks, and they are dry.
+    /// The fluid. Default none: then there must be blocks, and they are dry.
     #[serde(default)]
     pub fluid: Fluid,
-    /// How the fluid is computed. Default: see each key.
+    /// Numerical settings of a fluid on a lattice. Default: see each key.
     #[serde(default)]
     pub numerics: Numerics,
-    /// How a fluid of particles is computed, one with a free surface. Default none: the fluid is on a
-    /// lattice and fills the domain.
+    /// Settings of a fluid of particles, which has a free surface. Default none: the fluid is on a lattice and fills
+    /// the domain.
     #[serde(default)]
     pub particles: Option<Particles>,
-    /// Bodies of water at the time 0, of particles. Default none.
+    /// Bodies of water at the time 0, made of particles. Default none.
     #[serde(default)]
     pub water: Vec<Water>,
     /// The faces of the domain. Default: all periodic.
     #[serde(default)]
     pub boundaries: Boundaries,
-    /// Static solids, which blocks meet as fixed blocks. Default none.
+    /// Static solids, which are fixed blocks for other blocks. Default none.
     #[serde(default)]
     pub solids: Vec<Solid>,
-    /// What holds for all blocks together. Default: see each key.
+    /// Settings of all blocks. Default: see each key.
     #[serde(default)]
     pub rock: Rock,
-    /// How fluid and blocks meet. Default: see each key.
+    /// Coupling of fluid and blocks. Default: see each key.
     #[serde(default)]
     pub coupling: Coupling,
-    /// What blocks and solids are made of. Needed where there are blocks.
+    /// Materials of blocks and solids. Required if there are blocks.
     #[serde(default)]
     pub materials: Vec<Material>,
-    /// How two materials meet, where that does not follow from each of them. Default none.
+    /// Contact properties of pairs of materials that are not derived from each of them. Default none.
     #[serde(default)]
     pub material_pairs: Vec<MaterialPair>,
     /// Blocks. Default none.
     #[serde(default)]
     pub blocks: Vec<Block>,
-    /// Volumes of rock that joints have cut into blocks. Default none.
+    /// Volumes of rock that joints cut into blocks. Default none.
     #[serde(default)]
     pub rock_masses: Vec<RockMass>,
     /// The flow at the time 0. Default at rest, with hydrostatic pressure.
@@ -159,7 +159,7 @@ pub struct Scene {
     /// Means and fluctuations over time. Default none.
     #[serde(default)]
     pub statistics: Option<Statistics>,
-    /// Pictures in space, of the blocks and of the fluid. Default none.
+    /// Perspective pictures of the blocks and of the fluid. Default none.
     #[serde(default)]
     pub views: Vec<View>,
     /// Directory to which the paths of meshes are relative.
@@ -178,12 +178,12 @@ impl Scene {
         self.domain.centre(ijk)
     }
 
-    /// Whether something flows.
+    /// Whether the scene has a fluid.
     pub fn has_fluid(&self) -> bool {
         self.fluid != Fluid::default()
     }
 
-    /// Whether it is particles that flow.
+    /// Whether the fluid consists of particles.
     pub fn has_particles(&self) -> bool {
         self.particles.is_some()
     }
@@ -200,7 +200,7 @@ impl Scene {
         self.probes.iter().any(|probe| of(&probe.place))
     }
 
-    /// Shortest time between two outputs of a kind, s, if any is asked for at intervals.
+    /// Shortest time between two outputs of a kind, s; `None` if the scene has no outputs at intervals.
     pub fn shortest_interval(&self) -> Option<f64> {
         let histories = self.output.histories.iter().map(|history| history.every);
         let slices = self.output.slices.iter().map(|slice| slice.every);
@@ -216,20 +216,20 @@ impl Scene {
         &self.dir
     }
 
-    /// The format as a JSON schema.
+    /// The scene format as a JSON schema.
     pub fn schema() -> schemars::Schema {
         schemars::schema_for!(Self)
     }
 
-    /// Whether the scene agrees with itself.
+    /// Checks that the values of the scene are valid and consistent.
     ///
     /// # Errors
-    /// Names the first key that does not, why, and what would be right.
+    /// Names the first invalid key, the reason and a remedy.
     pub fn check(&self) -> Result<()> {
         if let (Some(_), false) = (&self.particles, self.has_fluid()) {
             return refuse(
                 "particles",
-                "need to know of what they are; add [fluid] with its density and acceleration",
+                "need a fluid; add [fluid] with its density and acceleration",
             );
         }
         if !self.has_fluid() && !self.has_blocks() {

@@ -36,8 +36,8 @@ pub struct Numerics {
     /// Largest expected speed, m/s. Default: the largest one in the boundaries and in the
     /// initial state at the time 0.
     pub velocity_scale: Option<f64>,
-    /// Magic parameter Λ next to bounce-back walls, no unit. Default 3/16, with which a wall of a
-    /// channel lies half a cell beyond the last cell centre at any viscosity.
+    /// Magic parameter Λ next to bounce-back walls, no unit. Default 3/16, for which a wall of a channel lies half a
+    /// cell beyond the last cell centre at any viscosity.
     pub wall_lambda: f64,
     /// One magic parameter Λ everywhere, for laminar scenes, no unit. Default: none.
     pub lambda: Option<f64>,
@@ -48,8 +48,8 @@ pub struct Numerics {
     pub solid_operator: SolidOperator,
     /// Weight of this operator in cells that blocks fill in part. Default: `exact` with `holdych`, otherwise `standard`.
     pub solid_weight: Option<SolidWeight>,
-    /// Magic parameter Λ in cells with a block and next to them, no unit. Default 1/10, with which the
-    /// drag depends least on the viscosity.
+    /// Magic parameter Λ in cells with a block and next to them, no unit. Default 1/10, for which the drag depends
+    /// least on the viscosity.
     pub solid_lambda: f64,
 }
 
@@ -98,7 +98,7 @@ pub enum Collision {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SolidOperator {
-    /// Holdych (2003): the least error of the drag.
+    /// Holdych (2003): the smallest error of the drag.
     #[default]
     Holdych,
     /// Noble & Torczynski (1998), as printed in Gardner & Sitar (2018).
@@ -146,7 +146,7 @@ pub enum WallModel {
     /// None: no slip.
     #[default]
     None,
-    /// Two powers (Werner & Wengle 1991), for y⁺ of the fifth cell up to 2500.
+    /// Two power laws (Werner & Wengle 1991), for y⁺ of the fifth cell up to 2500.
     WernerWengle,
     /// Reichardt (1951), for any y⁺.
     Reichardt,
@@ -225,7 +225,7 @@ impl Scene {
         self.check_lanes()
     }
 
-    /// Roughness of a wall or solid, m.
+    /// Checks the roughness of a wall or solid, m.
     pub(super) fn check_roughness(&self, key: &str, roughness: f64) -> Result<()> {
         if roughness == 0.0 {
             return Ok(());

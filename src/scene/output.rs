@@ -55,9 +55,10 @@ pub enum Field {
     QCriterion,
     /// Vorticity, 1/s.
     Vorticity,
-    /// Solid fraction: 1 in solid cells and in cells whose centres a block covers, 0 in the fluid, in between in cells cut by an exact surface.
+    /// Solid fraction: 1 in solid cells and in cells whose centres a block covers, 0 in the fluid, and in between in cells cut
+    /// by an exact surface.
     Solid,
-    /// Mean of the velocity over time, m/s; this and those below need `statistics`, and are NaN before its first sample.
+    /// Mean of the velocity over time, m/s; this field and those below need `statistics`, and are NaN before its first sample.
     MeanVelocity,
     /// Mean of the pressure over time, Pa.
     MeanPressure,
@@ -65,7 +66,7 @@ pub enum Field {
     PressureRms,
     /// Mean products of the fluctuations of the velocity, xx, yy, zz, xy, yz and xz, m²/s².
     ReynoldsStress,
-    /// Half the trace of these, m²/s².
+    /// Half the trace of the Reynolds stress, m²/s².
     TurbulentKineticEnergy,
 }
 
@@ -139,9 +140,10 @@ pub enum SliceField {
     EddyViscosity,
     /// Q-criterion ½(|Ω|² − |S|²), 1/s².
     QCriterion,
-    /// Solid fraction: 1 in solid cells and in cells whose centres a block covers, 0 in the fluid, in between in cells cut by an exact surface.
+    /// Solid fraction: 1 in solid cells and in cells whose centres a block covers, 0 in the fluid, and in between in cells cut
+    /// by an exact surface.
     Solid,
-    /// Magnitude of the mean velocity, m/s; this and those below need `statistics`.
+    /// Magnitude of the mean velocity, m/s; this field and those below need `statistics`.
     MeanSpeed,
     /// Mean of the pressure, Pa.
     MeanPressure,
@@ -152,7 +154,7 @@ pub enum SliceField {
 }
 
 impl SliceField {
-    /// The field that it is taken from.
+    /// The field from which it is computed.
     pub fn field(self) -> Field {
         match self {
             Self::Speed => Field::Velocity,
@@ -211,8 +213,8 @@ pub enum Quantity {
     Enstrophy,
     /// ∫ ρ dV, kg.
     Mass,
-    /// ∫ ρu_x dV, kg m/s, over all cells, including those inside blocks, where it oscillates from step to step. To measure the flow
-    /// past blocks, use a probe on a plane.
+    /// ∫ ρu_x dV, kg m/s, over all cells, including those inside blocks, where it oscillates from step to step. To measure the
+    /// flow past blocks, use a probe on a plane.
     MomentumX,
     /// ∫ ρu_y dV, kg m/s; as `momentum_x`.
     MomentumY,
@@ -222,51 +224,52 @@ pub enum Quantity {
     MaxSpeed,
     /// Mean velocity along the axis of `fluid.bulk_velocity`, of the fluid and of the blocks in it, m/s.
     BulkVelocity,
-    /// Body force per mass that maintains `fluid.bulk_velocity`, along its axis, in addition to `fluid.acceleration`, m/s²: the slope of
-    /// the energy line is this over g.
+    /// Body force per mass that maintains `fluid.bulk_velocity`, along its axis, in addition to `fluid.acceleration`, m/s²: the
+    /// slope of the energy line is this over g.
     DrivingAcceleration,
-    /// Potential energy of particles in their gravity, against that at the time 0, J.
+    /// Potential energy of particles in their gravity, relative to the time 0, J.
     PotentialEnergy,
-    /// Energy of compression of particles, Σ m ∫ p/ρ² dρ, against that at the time 0, J.
+    /// Energy of compression of particles, Σ m ∫ p/ρ² dρ, relative to the time 0, J.
     CompressionEnergy,
-    /// Kinetic, potential and compression energy of the particles that have left, at the time they left, relative to the origin of the
-    /// coordinates, J.
+    /// Kinetic, potential and compression energy of the particles that have left, at the time they left, relative to the origin
+    /// of the coordinates, J.
     EscapedEnergy,
     /// Work of free and driven blocks on particles, J.
     BodyWork,
-    /// Work on particles of the forces that expel them from fixed solids and blocks, J.
+    /// Work of the forces that expel particles from fixed solids and blocks, J.
     PushWork,
-    /// Work on particles of the boundary particles, less the work of their walls and blocks: the error of this boundary condition,
-    /// J.
+    /// Work of the boundary particles on fluid particles, minus the work of their walls and blocks: the error of this boundary
+    /// condition, J.
     DummyWork,
-    /// Work done on particles, less their energy and the energy of those that left: dissipated by viscosity and diffusion, with the error
-    /// of the computation, J.
+    /// Work done on particles, minus their energy and the energy of those that left: the energy dissipated by viscosity and
+    /// diffusion, including the numerical error, J.
     DissipatedEnergy,
     /// Energy that blocks have lost in joints too narrow for particles, J.
     JointWork,
-    /// Energy that free and driven blocks have lost to particles and in joints: `body_work` plus `joint_work`, up to the error of the
-    /// alternating advance of blocks and water, J.
+    /// Energy that free and driven blocks have lost to particles and in joints: `body_work` plus `joint_work`, up to the error
+    /// of the alternating advance of blocks and water, J.
     LostToWater,
-    /// Kinetic energy of the blocks, with that of their spin, J.
+    /// Kinetic energy of the blocks, including rotation, J.
     BlockKineticEnergy,
-    /// Potential energy of the blocks in gravity, against that at the time 0, J.
+    /// Potential energy of the blocks in gravity, relative to the time 0, J.
     BlockPotentialEnergy,
     /// Strain energy of the deformable blocks, J.
     StrainEnergy,
-    /// Energy in the springs of the present contacts of the blocks, J: the work done on them since they began. Negative where
-    /// the area of a contact grew while it was pressed, so that its springs gave back more than they took: see `contact_loss`.
+    /// Energy in the springs of the current contacts of the blocks, J: the work done on them since the contacts began. Negative
+    /// if the area of a contact grew under compression, so that its springs returned more energy than they stored: see
+    /// `contact_loss`.
     ContactEnergy,
     /// Energy dissipated by friction, J.
     FrictionWork,
-    /// Energy dissipated by damping, of contacts and of mass, and by films of fluid, J.
+    /// Energy dissipated by contact damping, mass damping and films of fluid, J.
     DampingWork,
     /// Energy in the springs of contacts when these ended, J: energy lost in contacts, or gained if it is negative. The
     /// springs conserve energy only while the area of their contact is constant; this is the error of the contact law.
     ContactLoss,
-    /// Energy added by driven blocks and loads, J.
+    /// Energy added by driven blocks and external loads, J.
     OutsideWork,
-    /// Relative error of the energy balance of the blocks, no unit: `block_kinetic_energy`,
-    /// `block_potential_energy`, `strain_energy`, `contact_energy`, `friction_work`, `damping_work` and `contact_loss`, less
+    /// Relative error of the energy balance of the blocks, no unit: the sum of `block_kinetic_energy`,
+    /// `block_potential_energy`, `strain_energy`, `contact_energy`, `friction_work`, `damping_work` and `contact_loss`, minus
     /// `outside_work`. It is the error of the time integration; that of the contact law is `contact_loss`.
     EnergyError,
     /// Number of contacts of blocks.
@@ -317,7 +320,7 @@ impl Quantity {
         }
     }
 
-    /// Whether it belongs to the blocks, not the fluid.
+    /// Whether it is a quantity of the blocks, not of the fluid.
     pub fn is_of_blocks(self) -> bool {
         use Quantity::*;
         !self.is_of_particles()
@@ -391,7 +394,7 @@ impl Scene {
         self.check_plane(key, slice.axis, slice.position, slice.field, slice.range)
     }
 
-    /// A plane of the domain can be shown.
+    /// Checks that a plane of the domain can be shown.
     pub(super) fn check_plane(
         &self,
         key: &str,
@@ -421,7 +424,7 @@ impl Scene {
         inside(format!("{key}.position"), &self.domain, point)
     }
 
-    /// The eddy viscosity can be written only where there is a model of it.
+    /// Checks that the eddy viscosity is requested only with a model of it.
     pub(super) fn check_eddy(&self, key: &str, wanted: bool) -> Result<()> {
         if wanted && self.numerics.eddy_viscosity == EddyViscosity::None {
             return refuse(

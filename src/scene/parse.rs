@@ -1,4 +1,4 @@
-//! From TOML text to a scene; errors that say where and what instead.
+//! Parses scenes from TOML text; errors give the position and a remedy.
 
 use std::ops::Range;
 use std::path::Path;
@@ -12,8 +12,8 @@ use super::renamed::renamed_keys;
 use super::{series_files, tagged};
 use crate::error::{Error, Place, Result};
 
-/// How alike (Jaro–Winkler, 0 to 1) two words must be for one to be taken as a slip for the
-/// other: `viscocity` and `viscosity` have 0.97, unrelated keys of the format stay below 0.7.
+/// Similarity (Jaro–Winkler, 0 to 1) from which one word counts as a misspelling of the other: `viscocity` and
+/// `viscosity` have 0.97, unrelated keys of the format stay below 0.7.
 const ALIKE: f64 = 0.75;
 
 impl Scene {
@@ -31,8 +31,8 @@ impl Scene {
         Self::from_toml(&text, dir, &path.display().to_string())
     }
 
-    /// Reads and checks the scene in `text`. Meshes are looked for in `dir`; `place` names the
-    /// text in messages, and its stem is the default title.
+    /// Reads and checks the scene in `text`. Paths of meshes are relative to `dir`; `place` names the text in
+    /// messages, and its stem is the default title.
     ///
     /// # Errors
     /// If the text is not TOML, does not follow the format, or contradicts itself.
@@ -47,20 +47,20 @@ impl Scene {
         Ok(scene)
     }
 
-    /// `error`, of a key of the scene in `text` or of an argument that was made from it, with the line and column of that
-    /// key; `place` names the text. Errors of other kinds stay as they are.
+    /// Adds the line and column of the key to an `error` about a key of the scene in `text`, or about an argument made from
+    /// one; `place` names the text. Other errors are returned unchanged.
     pub fn locate(error: Error, text: &str, place: &str) -> Error {
         locate(error, text, place)
     }
 }
 
-/// Why a text does not follow the format.
+/// Error for a text that does not follow the format.
 pub(super) struct Refusal {
-    /// Bytes of the text.
+    /// Range of bytes in the text.
     pub span: Option<Range<usize>>,
-    /// Keys from the scene to the place, without the numbers of lists.
+    /// Path of keys from the scene to the error, without the indices of lists.
     pub key: String,
-    /// What is wrong, and what would be right.
+    /// The problem and a remedy.
     pub message: String,
 }
 
@@ -75,7 +75,7 @@ fn deserialize(text: &str, dir: &Path) -> Result<Scene, Refusal> {
 }
 
 impl Refusal {
-    /// The same of a value in the table `key`.
+    /// Prepends the table `key` to the path of keys.
     pub fn below(self, key: &str) -> Self {
         let key = match self.key.as_str() {
             "" => key.to_owned(),
@@ -85,19 +85,19 @@ impl Refusal {
     }
 
     fn of(mut error: toml::de::Error, text: &str) -> Self {
-        // Without its input the error prints the path of keys at which it arose.
+        // Without its input the error prints the path of keys that it concerns.
         error.set_input(None);
         let printed = error.to_string();
         let keys = printed
             .trim_end()
             .rsplit_once("\nin `")
             .and_then(|(_, keys)| keys.strip_suffix('`'));
-        // The keys of a kind are those of its table.
+        // In the text, the keys of a kind are keys of its table.
         let key = keys.unwrap_or_default().replace(".kind.", ".");
         let found = error.span().and_then(|span| text.get(span));
         let message = match (error.message(), found) {
             ("duplicate key", Some(key)) => {
-                format!("`{key}` stands twice in its table; keep one of the two")
+                format!("`{key}` occurs twice in its table; keep one of the two")
             }
             (message, _) => explain(message),
         };
@@ -108,7 +108,7 @@ impl Refusal {
         }
     }
 
-    /// The error in the `text` that `place` names.
+    /// Converts to an error with line and column in `text`; `place` names the text.
     fn at(self, text: &str, place: &str) -> Error {
         let Self { span, key, message } = self;
         let at = |position| {
@@ -117,7 +117,7 @@ impl Refusal {
                 position,
             })
         };
-        // A text that is no TOML has no keys; its own error follows.
+        // Text that is not TOML has no keys; its own error is returned instead.
         match renamed_keys(text, place).unwrap_or_default().first() {
             Some(first) => Error::Scene {
                 place: at(Some([first.line, first.column])),
@@ -133,7 +133,7 @@ impl Refusal {
     }
 }
 
-/// The error of a check, with the line of the key that it names.
+/// Adds the line of the key that the error of a check names.
 fn locate(error: Error, text: &str, place: &str) -> Error {
     match error {
         Error::Scene {
@@ -187,7 +187,7 @@ fn find(text: &str, key: &str) -> Option<[usize; 2]> {
     Some(position(text, found.span().start))
 }
 
-/// Line and column of the table that makes the block `name`, or many of which it is one, `name_3` of `name`.
+/// Line and column of the table that makes the block `name`, or several blocks including it, such as `name_3` of `name`.
 fn find_block(text: &str, name: &str) -> Option<[usize; 2]> {
     let document = DeTable::parse(text).ok()?;
     let tables = ["blocks", "solids", "rock_masses"].into_iter();
@@ -221,7 +221,7 @@ pub(super) fn position(text: &str, offset: usize) -> [usize; 2] {
     ]
 }
 
-/// A key or another word (`what`) that there is not, and the most similar one that there is.
+/// Message for an unknown key or other word (`what`), with the most similar known one.
 pub(super) fn unknown(what: &str, wrong: &str, possible: &[&str]) -> String {
     let best = possible
         .iter()
@@ -237,7 +237,7 @@ pub(super) fn unknown(what: &str, wrong: &str, possible: &[&str]) -> String {
     )
 }
 
-/// serde's words, in those of the format.
+/// Translates a message of serde to the terms of the format.
 fn explain(message: &str) -> String {
     let words: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     for (what, start) in [("key", "unknown field"), ("word", "unknown variant")] {

@@ -10,43 +10,42 @@ use super::{
 };
 use crate::error::Result;
 
-/// Settings of a fluid of particles (weakly compressible SPH). This table makes the fluid one with a
-/// free surface, whose initial bodies are in `water`.
+/// Settings of a fluid of particles (weakly compressible SPH). With this table the fluid has a free surface; its
+/// initial bodies are in `water`.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Particles {
-    /// Distance Δx of particles at the start, m. Edges of the domain along which it is periodic are whole
-    /// numbers of it.
+    /// Distance Δx of particles at the start, m. Edges of the domain along periodic axes are whole multiples of it.
     pub spacing: f64,
-    /// Smoothing length h, of the spacing: 1.2 to 3. Particles interact within 2h. Default 2.
+    /// Smoothing length h in units of the spacing: 1.2 to 3. Particles interact within 2h. Default 2.
     #[serde(default = "Particles::usual_smoothing")]
     pub smoothing: f64,
-    /// The scheme. Default `delta`.
+    /// SPH scheme. Default `delta`.
     #[serde(default)]
     pub scheme: Scheme,
-    /// How pressure follows from density. Default `linear`.
+    /// Equation of state. Default `linear`.
     #[serde(default)]
     pub equation_of_state: EquationOfState,
-    /// Largest expected speed U, m/s: the speed of sound is 10 U. Default √(2 g D), the speed
-    /// after a fall through the height D of all water at the start, or more: that of driven blocks in the run, or of
-    /// water that moves at the start and of free blocks after a fall to the bottom of the water.
+    /// Largest expected speed U, m/s: the speed of sound is 10 U. Default √(2 g D), the speed after a fall through the height D
+    /// of all water at the start, or a larger one: that of driven blocks during the run, of water that moves at the start, or
+    /// of free blocks after a fall to the bottom of the water.
     pub largest_speed: Option<f64>,
-    /// Stiffness k of the scheme `mueller`, p = k (ρ − ρ₀), m²/s²: the square of its speed of sound. The paper gives
-    /// none. Default 5 U², at which water is denser at the bottom of a tank by a tenth: the stiffer, the more the
-    /// surface pulls, where sums lack neighbours.
+    /// Stiffness k of the scheme `mueller`, p = k (ρ − ρ₀), m²/s²: the square of its speed of sound. The paper gives no value.
+    /// Default 5 U², for which water at the bottom of a tank is denser by a tenth. A larger stiffness increases the attraction
+    /// at the surface, where sums lack neighbours.
     pub stiffness: Option<f64>,
-    /// Artificial viscosity α (Monaghan 1992), no unit, from 0: a kinematic viscosity of
-    /// α h c/10 in space and α h c/8 in a plane. Default 0.005.
+    /// Artificial viscosity α (Monaghan 1992), no unit, from 0: equivalent to a kinematic viscosity of α h c/10 in
+    /// space and α h c/8 in a plane. Default 0.005.
     #[serde(default = "Particles::usual_viscosity")]
     pub artificial_viscosity: f64,
     /// Diffusion δ of density (Fourtakas et al. 2019), no unit, from 0. Default 0.1.
     #[serde(default = "Particles::usual_diffusion")]
     pub density_diffusion: f64,
-    /// Acoustic time step, of h over the speed of sound: above 0, at most 1. Default 0.7: the errors of the validated
-    /// cases are those of shorter steps, and up to 1.4 water in tanks stays calm.
+    /// Acoustic time step in units of h over the speed of sound: above 0, at most 1. Default 0.7: the errors of the validated
+    /// cases equal those of shorter steps; water in tanks stays calm up to 1.4.
     #[serde(default = "Particles::usual_courant")]
     pub courant: f64,
-    /// Largest initial displacement of particles of still water from the points of their lattice along each axis, in units of the
+    /// Largest initial displacement of particles of still water from their lattice points along each axis, in units of the
     /// spacing, 0 to 0.25, the same in each run. Under pressure a regular lattice resists shear, and long waves travel too fast
     /// on it; disorder stirs still water. Default 0.04.
     #[serde(default = "Particles::usual_disorder")]
@@ -58,7 +57,7 @@ pub struct Particles {
 }
 
 impl Particles {
-    /// Those of this spacing (m), the rest as it is by default.
+    /// Settings with this spacing (m) and the defaults otherwise.
     pub fn of(spacing: f64) -> Self {
         Self {
             spacing,
@@ -80,9 +79,9 @@ impl Particles {
         self.smoothing * self.spacing
     }
 
-    /// Layers of particles inside solids: what lies within 2h of the surface.
+    /// Number of layers of particles inside solids, which fill the depth of 2h below the surface.
     pub fn layers(&self) -> u32 {
-        // A whole number of layers stays one where rounding lifts it.
+        // Rounding must not add a layer to a whole number.
         (2.0 * self.smoothing - 1e-9).ceil() as u32
     }
 
@@ -107,7 +106,7 @@ impl Particles {
     }
 }
 
-/// A scheme of particles.
+/// SPH scheme.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Scheme {
@@ -120,7 +119,7 @@ pub enum Scheme {
     Mueller,
 }
 
-/// How pressure p follows from density ρ, with the density at rest ρ₀ and the speed of sound c.
+/// Equation of state for pressure p and density ρ, with the density at rest ρ₀ and the speed of sound c.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EquationOfState {
@@ -157,14 +156,14 @@ const WHOLE: f64 = 1e-6;
 /// Range of the smoothing length in units of the spacing: below it the sum over neighbours does not approximate the integral,
 /// above it a particle has a thousand neighbours.
 const SMOOTHING: std::ops::RangeInclusive<f64> = 1.2..=3.0;
-/// Largest acoustic time step: water in tanks stays calm up to 1.4, whatever its smoothing, and blows up at 1.8.
+/// Largest acoustic time step: water in tanks stays calm up to 1.4 for any smoothing length, and becomes unstable at 1.8.
 const MOST_COURANT: f64 = 1.0;
 
 /// Largest disorder: with more, particles may start at the same point.
 const MOST_DISORDER: f64 = 0.25;
 
 impl Scene {
-    /// Checks the keys of this table.
+    /// Checks the keys of the table `particles`.
     pub(super) fn check_particles(&self, particles: &Particles) -> Result<()> {
         if !SMOOTHING.contains(&particles.smoothing) {
             return refuse(
@@ -203,7 +202,7 @@ impl Scene {
             return refuse(
                 "particles.courant",
                 format!(
-                    "is {}, near what blows up; give at most {MOST_COURANT}, such as 0.7",
+                    "is {}, close to instability; give at most {MOST_COURANT}, such as 0.7",
                     particles.courant
                 ),
             );
@@ -222,7 +221,7 @@ impl Scene {
         self.check_particle_output()
     }
 
-    /// The box of a fluid of particles.
+    /// Checks the domain of a fluid of particles.
     pub(super) fn check_particle_domain(&self, particles: &Particles) -> Result<()> {
         let domain = &self.domain;
         if !domain.is_given() {
@@ -245,12 +244,12 @@ impl Scene {
             let key = format!("domain.size[{}]", axis.index());
             positive(key.as_str(), size, "m")?;
             let periodic = *self.boundaries.face(Face::ALL[2 * axis.index()]) == Boundary::Periodic;
-            // Along y nothing varies in a plane: its one row fits any width.
+            // Nothing varies along y in a plane flow: its single row fits any width.
             if !periodic || particles.plane && axis == Axis::Y {
                 continue;
             }
             let count = size / spacing;
-            // Three cells of the device, each as wide as the kernel reaches.
+            // Three cells of the neighbour search on the device, each as wide as the kernel radius.
             let fewest = 3 * particles.layers();
             let is_whole = (count - count.round()).abs() <= WHOLE;
             if is_whole && count.round() < f64::from(fewest) {
@@ -258,7 +257,7 @@ impl Scene {
                     key,
                     format!(
                         "{size} m along {}, which is periodic, hold {count:.0} particles {spacing} m apart, and the \
-                         kernel wants {fewest} at least; make it longer, or use a smaller particles.spacing",
+                         kernel needs at least {fewest}; make it longer, or use a smaller particles.spacing",
                         axis.name()
                     ),
                 );
@@ -305,7 +304,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Refuses keys of the cells of a lattice.
+    /// Refuses keys that apply only to a lattice.
     fn check_of_lattice(&self) -> Result<()> {
         let tables = [
             ("numerics", self.numerics != Numerics::default(), ""),
@@ -321,7 +320,7 @@ impl Scene {
                 return refuse(
                     key,
                     format!(
-                        "is of a fluid on a lattice, and here are particles; remove it{instead}, or [particles]"
+                        "applies to a fluid on a lattice, and this scene has particles; remove it{instead}, or [particles]"
                     ),
                 );
             }
@@ -366,7 +365,7 @@ impl Scene {
                 ProbePlace::Block { faces: true, .. } => {
                     return refuse(
                         format!("{key}.faces"),
-                        "faces measure the cells before them, and here are particles; leave it out",
+                        "faces measure the cells before them, and this scene has particles; leave it out",
                     );
                 }
                 ProbePlace::Gauge { .. }
@@ -376,7 +375,7 @@ impl Scene {
                 _ => {
                     return refuse(
                         key,
-                        "measures cells, and here are particles; give kind = \"point\", \"line\", \"box\", \"gauge\", \
+                        "measures cells, and this scene has particles; give kind = \"point\", \"line\", \"box\", \"gauge\", \
                          \"sensor\", \"run_up\" or \"block\"",
                     );
                 }
@@ -393,7 +392,7 @@ impl Scene {
         Ok(())
     }
 
-    /// Refuses keys that only a fluid of particles has.
+    /// Refuses keys that apply only to a fluid of particles.
     pub(super) fn check_no_particles(&self) -> Result<()> {
         if !self.water.is_empty() {
             return refuse(
@@ -415,7 +414,7 @@ impl Scene {
                 return refuse(
                     format!("output.histories[{index}].quantities"),
                     format!(
-                        "only particles have one of these; leave {} out",
+                        "only a fluid of particles has this quantity; leave {} out",
                         quantity.name()
                     ),
                 );
@@ -428,7 +427,7 @@ impl Scene {
             ) {
                 return refuse(
                     format!("probes[{index}]"),
-                    "measures free water, which only particles are; add [particles], or give another kind",
+                    "measures free water, which only particles represent; add [particles], or give another kind",
                 );
             }
         }
@@ -444,7 +443,7 @@ impl Scene {
                     return refuse(
                         key,
                         format!(
-                            "particles know no `{}`; use kind = \"wall\", \"free_slip\", \"open\" or \"periodic\"",
+                            "particles do not support `{}`; use kind = \"wall\", \"free_slip\", \"open\" or \"periodic\"",
                             boundary.kind()
                         ),
                     );

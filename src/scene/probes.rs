@@ -1,4 +1,4 @@
-//! Where the flow is measured.
+//! Probes: measurements of the flow and of blocks.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -10,7 +10,7 @@ use super::{Axis, Direction, Field, Scene};
 use crate::error::Result;
 
 /// A measurement, written as CSV; the forces on a `block`, the level of a `gauge`, a `run_up` and the volume of water in a
-/// `box` are drawn over time next to it, as PNG.
+/// `box` are also plotted over time, as PNG.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Probe {
@@ -20,9 +20,9 @@ pub struct Probe {
     #[serde(rename = "kind")]
     #[schemars(flatten)]
     pub place: ProbePlace,
-    /// What it measures. Default velocity and pressure. A `gauge` always gives the level, a `run_up` its
-    /// place, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and forces,
-    /// its stress if it deforms, a `sensor` pressure and impulse, and no other fields.
+    /// Fields that it measures. Default velocity and pressure. Some kinds have fixed columns and no other fields: a `gauge` the
+    /// level, a `run_up` its position, a `face` area, pressure and force, a `block` its position, velocity, rotation, spin and
+    /// forces, and its stress if it deforms, a `sensor` pressure and impulse.
     #[serde(default = "usual_fields")]
     #[schemars(default = "Vec::<Field>::new")]
     pub fields: Vec<Field>,
@@ -36,12 +36,12 @@ pub struct Probe {
 #[serde(rename_all = "snake_case")]
 #[schemars(tag = "kind")]
 pub enum ProbePlace {
-    /// One point, interpolated; among particles their mean, weighted by the kernel, and `NaN` where there is no water.
+    /// One point, interpolated; in particles their kernel-weighted mean, and `NaN` where there is no water.
     Point {
         /// The point, m.
         at: [f64; 3],
     },
-    /// Equally spaced points of a line, both ends included, interpolated, or by the kernel; `NaN` as for a point.
+    /// Equally spaced points of a line, both ends included, each measured as a point; `NaN` as for a point.
     Line {
         /// First point, m.
         from: [f64; 3],
@@ -57,48 +57,47 @@ pub enum ProbePlace {
         /// Where the plane cuts the axis, m.
         position: f64,
     },
-    /// Mean, least and largest value over the fluid cells whose centres lie in a box, or over the particles in it,
-    /// of these the volume too (m³); `NaN` where no particle is in it, and a volume of 0.
+    /// Mean, smallest and largest value over the fluid cells whose centres lie in a box. For particles, over the particles in
+    /// the box, and also their volume (m³); if there are none, the values are `NaN` and the volume is 0.
     Box {
         /// Lower corner, m.
         min: [f64; 3],
         /// Upper corner, m.
         max: [f64; 3],
     },
-    /// A face of a static solid: the fluid cells in a box that have a solid cell behind them.
-    /// Area, mean, least and largest pressure, and the force on the solid.
+    /// A face of a static solid: the fluid cells in a box that have a solid cell behind them. Area, mean, smallest
+    /// and largest pressure, and the force on the solid.
     Face {
         /// Lower corner of the box, m.
         min: [f64; 3],
         /// Upper corner of the box, m.
         max: [f64; 3],
-        /// Outward normal of the solid's face: the solid cell lies against it.
+        /// Outward normal of the solid's face; the solid cell is behind the fluid cell, against this normal.
         normal: Direction,
     },
-    /// A block: its centroid (m) and velocity (m/s), its rotation since the start as the vector of
-    /// its axis and angle (degrees, at most 180), its spin (rad/s), and the force (N) and torque (N m) of its
-    /// contacts on it. In a fluid also the force (N) and torque (N m) of the flow on it, without
-    /// buoyancy, and its buoyancy (N): those of the last exchange. Among particles the force has buoyancy in it, and that
-    /// column is 0. With `coupling.lubrication` also `film_force` (N), that of films of fluid in thin gaps.
+    /// A block: its centroid (m) and velocity (m/s), its rotation since the start as the vector of its axis and angle (degrees,
+    /// at most 180), its spin (rad/s), and the force (N) and torque (N m) of its contacts on it. In a fluid also the force (N)
+    /// and torque (N m) of the flow on it, without buoyancy, and its buoyancy (N), all at the last exchange. In particles the
+    /// force includes buoyancy, and the column of the buoyancy is 0. With `coupling.lubrication` also `film_force` (N), the
+    /// force of films of fluid in thin gaps.
     Block {
-        /// Name of the block; one of a row or of a rock mass has its number after it: `stone_3`.
+        /// Name of the block; blocks of a row or of a rock mass have a number appended: `stone_3`.
         block: String,
-        /// Whether to measure the loads of the fluid on each of its plane faces too: writes `NAME_faces.csv`, a
-        /// row a face, with the numbers of its `part` and `face`, `area` and `wetted_area` (m²), mean `pressure`
-        /// and `shear` stress (Pa), whether it is in a `joint` (another block, solid or wall within three cells
-        /// over it), `joint_area` (m²) of that where it is closed and `joint_pressure` (Pa) there, that of its rim,
-        /// `position` of its centroid (m), outward `normal`, `force` (N), `moment` about the centroid of
-        /// the block (N m), and the vector of the shear stress; and `faces_*.vtp`. Adds to the table of the
-        /// block `uplift_of_faces`, the force on faces that look down, against gravity (N), and
-        /// `joint_pressure`, the mean over its joints (Pa), both with what is closed. Pressure is that of the fluid: above the
-        /// hydrostatic one where the fluid's acceleration leaves gravity out. NaN stands where no fluid lies
-        /// beside. Needs a fluid. Default false.
+        /// Whether to measure the loads of the fluid on each of its plane faces too. Writes `NAME_faces.csv`, one row per face,
+        /// with the numbers of its `part` and `face`, `area` and `wetted_area` (m²), mean `pressure` and `shear` stress (Pa),
+        /// whether it is in a `joint` (another block, solid or wall within three cells of it), `joint_area` (m²) of the closed
+        /// part of the joint and `joint_pressure` (Pa) there, taken from its rim, `position` of its centroid (m), outward
+        /// `normal`, `force` (N), `moment` about the centroid of the block (N m), and the vector of the shear stress; and
+        /// `faces_*.vtp`. Adds two columns to the table of the block: `uplift_of_faces`, the force on faces that look down,
+        /// against gravity (N), and `joint_pressure`, the mean over its joints (Pa), both including closed joints. Pressures
+        /// are those of the fluid: relative to the hydrostatic pressure if the acceleration of the fluid leaves gravity out.
+        /// Values are NaN where a face has no fluid next to it. Needs a fluid. Default false.
         #[serde(default)]
         faces: bool,
-        /// Whether to add to its table its factors of safety, `safety_sliding`, `safety_uplift` and
-        /// `safety_toppling`, by limit equilibrium of weight, fluid, point loads, acceleration and its contacts, and to tell
-        /// them in the summary of the run; `inf` where nothing drives it, `NaN` where it touches nothing. In closed joints they
-        /// take the pressure of their rim in the lattice's fluid. Not of a block with a `guide`. Default false.
+        /// Whether to add to its table its factors of safety, `safety_sliding`, `safety_uplift` and `safety_toppling`, by limit
+        /// equilibrium of weight, fluid, point loads, acceleration and its contacts, and to report them in the summary of the
+        /// run; `inf` if nothing drives it, `NaN` if it touches nothing. In closed joints they use the pressure of the rim in
+        /// the fluid of the lattice. Not for a block with a `guide`. Default false.
         #[serde(default)]
         safety: bool,
     },
@@ -108,8 +107,8 @@ pub enum ProbePlace {
         at: [f64; 2],
     },
     /// A sensor on a wall or a fixed block next to particles: the mean `pressure` on a square patch over the last time step
-    /// (Pa), and its `impulse` since the start (Pa s), from which the mean over any time follows. Where there is no water
-    /// both are of nothing, 0.
+    /// (Pa), and its `impulse` since the start (Pa s), from which the mean over any time follows. Both are 0 where there is no
+    /// water.
     Sensor {
         /// Centre of the patch, m.
         at: [f64; 3],
@@ -119,7 +118,7 @@ pub enum ProbePlace {
         #[serde(default)]
         size: Option<f64>,
     },
-    /// The farthest of the particles in a box along a direction, drops aside: its place, m; `NaN` where there is none.
+    /// Position along a direction of the farthest particle in a box, m, without drops; `NaN` if there is none.
     RunUp {
         /// Lower corner of the box, m.
         min: [f64; 3],
@@ -143,7 +142,7 @@ impl ProbePlace {
         ("run_up", "min max direction", ""),
     ];
 
-    /// The points of a line, each with its distance from the first, m; none of another kind.
+    /// The points of a line, each with its distance from the first, m; empty for other kinds.
     pub fn stations(&self) -> Vec<(f64, [f64; 3])> {
         let Self::Line { from, to, count } = self else {
             return Vec::new();
@@ -162,7 +161,7 @@ impl ProbePlace {
     }
 }
 
-/// A probe has the fields that its kind lets it have, and a point the coordinates.
+/// Checks that a probe has only fields that its kind allows, and the right number of coordinates.
 pub(super) fn check_keys(probe: &DeTable<'_>, kind: &str) -> Result<(), String> {
     let always = match kind {
         "block" => Some("position, velocity, rotation, spin, force and torque"),
@@ -196,7 +195,7 @@ pub(super) fn check_keys(probe: &DeTable<'_>, kind: &str) -> Result<(), String> 
     }
 }
 
-/// What a probe measures where it does not say.
+/// Default fields of a probe.
 fn usual_fields() -> Vec<Field> {
     vec![Field::Velocity, Field::Pressure]
 }
@@ -223,7 +222,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The names of the tables that a probe has beside its own.
+    /// The names of the tables that a probe writes in addition to its own.
     fn tables_of(&self, probe: &Probe) -> Vec<String> {
         let mut tables = Vec::new();
         if matches!(probe.place, ProbePlace::Block { faces: true, .. }) {
@@ -275,7 +274,7 @@ impl Scene {
                 format!("{key}.faces"),
                 "particles load blocks as a whole, and not face by face; remove `faces`, or use a lattice fluid",
             ),
-            // Whether there is a block of that name, only the blocks themselves can tell.
+            // The name of the block is checked when the blocks are built.
             ProbePlace::Block { .. } if self.has_blocks() => Ok(()),
             ProbePlace::Block { .. } => refuse(
                 format!("{key}.block"),

@@ -1,23 +1,23 @@
-//! Keys of scenes that have a new name: the table of them, and the rewriting of a scene that has old ones.
+//! Renamed keys of scenes: their table, and the migration of scenes that use old names.
 
 use super::parse::position;
 use crate::{Error, Result, error::Place};
 use std::{fmt, ops::Range};
 use toml::de::{DeTable, DeValue};
 
-/// A key that has a new name.
+/// A renamed key.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RenamedKey {
     /// Tables around it from the outermost one, joined by dots; one name stands for all tables of an array. Empty for a
     /// key of the scene itself.
     pub table: &'static str,
-    /// The name that it had.
+    /// Its old name.
     pub old: &'static str,
-    /// The name that it has.
+    /// Its new name.
     pub new: &'static str,
 }
 
-/// All keys of scenes that have a new name.
+/// All renamed keys of scenes.
 pub const RENAMED_KEYS: &[RenamedKey] = &[RenamedKey {
     table: "rock",
     old: "search",
@@ -33,7 +33,7 @@ pub struct Renaming {
     pub line: usize,
     /// Column, from 1.
     pub column: usize,
-    /// Bytes of the key in the text.
+    /// Range of bytes of the key in the text.
     span: Range<usize>,
 }
 
@@ -45,7 +45,7 @@ impl fmt::Display for Renaming {
     }
 }
 
-/// The old keys in the text of the scene `file`, in its order.
+/// The old keys in the text of the scene `file`, in order of appearance.
 ///
 /// # Errors
 /// [`Error::Scene`] if the text is not TOML, or if a table has both an old key and the new one.
@@ -67,7 +67,8 @@ pub fn renamed_keys(text: &str, file: &str) -> Result<Vec<Renaming>> {
     Ok(found)
 }
 
-/// The text of the scene `file` with the new names of its old keys, and the old keys. All else stays as it is, comments included.
+/// Renames the old keys in the text of the scene `file`; returns the new text and the old keys. All else is unchanged,
+/// including comments.
 ///
 /// ```
 /// let (text, renamed) = riprap::scene::migrate("[rock]\nsearch = \"host\"  # few blocks\n", "scene.toml")?;
@@ -77,7 +78,7 @@ pub fn renamed_keys(text: &str, file: &str) -> Result<Vec<Renaming>> {
 /// ```
 ///
 /// # Errors
-/// Those of [`renamed_keys`].
+/// The errors of [`renamed_keys`].
 pub fn migrate(text: &str, file: &str) -> Result<(String, Vec<Renaming>)> {
     let found = renamed_keys(text, file)?;
     let mut migrated = text.to_owned();
@@ -87,7 +88,7 @@ pub fn migrate(text: &str, file: &str) -> Result<(String, Vec<Renaming>)> {
     Ok((migrated, found))
 }
 
-/// The error of the key at a line and column.
+/// An error about the key at a line and column.
 fn refused(file: &str, position: [usize; 2], key: &str, message: &str) -> Error {
     Error::Scene {
         place: Some(Place {
@@ -99,7 +100,7 @@ fn refused(file: &str, position: [usize; 2], key: &str, message: &str) -> Error 
     }
 }
 
-/// Adds the places of `key` in the tables at `path` below `table`.
+/// Adds the occurrences of `key` in the tables at `path` below `table`.
 fn collect(
     (text, file): (&str, &str),
     table: &DeTable<'_>,
@@ -168,7 +169,7 @@ mod tests {
         assert!(message.contains("2:1: search"), "{message}");
     }
 
-    /// An old name is no name of a key any more, and the new one is.
+    /// The new names are keys of the format.
     #[test]
     fn the_table_fits_the_format() {
         let schema = crate::scene::Scene::schema().to_value().to_string();

@@ -1,4 +1,4 @@
-//! What holds for all blocks together.
+//! Settings of all blocks.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -12,34 +12,33 @@ use crate::error::Result;
 #[serde(deny_unknown_fields, default)]
 #[non_exhaustive]
 pub struct Rock {
-    /// Acceleration of gravity, m/s². Default (0, 0, −9.81): unless told otherwise, z points up.
+    /// Acceleration of gravity, m/s². Default (0, 0, −9.81): z points up.
     pub gravity: [f64; 3],
     /// Mass damping α, 1/s: every free block loses speed at this rate. Default 0.
     pub mass_damping: f64,
     /// Time step, s. Default: half of the largest that the stiffest contact and the elasticity of deformable
     /// blocks allow. A larger one is refused.
     pub time_step: Option<f64>,
-    /// Distance by which blocks are grown when pairs that may touch are searched, m: a larger one
-    /// makes searches rarer and lists longer. Default: chosen from the sizes of the blocks.
+    /// Distance by which blocks are enlarged in the broadphase, m: with a larger one the broadphase runs less often
+    /// and its lists are longer. Default: chosen from the sizes of the blocks.
     pub skin: Option<f64>,
-    /// When blocks that rest are left out of the computation until something reaches them. Default
-    /// never.
+    /// When resting blocks are left out of the computation until something reaches them. Default never.
     pub sleep: Option<Sleep>,
-    /// Largest overlap of two blocks, as a part of the smaller one's least distance from centroid to
-    /// face: beyond it the run ends. Default 0.1, as hard blocks have it; fast ones need more or a greater
+    /// Largest overlap of two blocks, as a fraction of the smaller one's smallest distance from centroid to face: the
+    /// run ends if it is exceeded. Default 0.1, which suits stiff blocks; fast blocks need a larger one or a greater
     /// stiffness.
     pub largest_overlap: f64,
-    /// Least area that a contact's stiffness counts with, as a part of the square of twice that distance:
-    /// corners, whose area begins at zero, are soft without it. A quarter is what one of the four corners
-    /// of a square face carries. Strength goes by the true area. From 0 to 1, default 0.
+    /// Smallest area used for the stiffness of a contact, as a fraction of the square of twice the smallest distance
+    /// from centroid to face: without it corners, whose contact area begins at zero, are soft. A quarter is the share
+    /// of one of the four corners of a square face. Strength uses the true area. From 0 to 1, default 0.
     pub corner_area: f64,
     /// Whether blocks that overlap at the start are pushed apart before the time 0. Default false:
     /// they are refused.
     pub relax: bool,
-    /// Where pairs that may touch are searched. Default `auto`.
+    /// Where the broadphase runs. Default `auto`.
     pub broadphase: Search,
-    /// Convex parts from which on `auto` searches on the device, as `riprap bench --device` measures it. Default 1000 on
-    /// a GPU, never on a CPU.
+    /// Number of convex parts from which `auto` uses the device, as measured by `riprap bench --device`. Default 1000 on a GPU,
+    /// never on a CPU.
     pub broadphase_crossover: Option<usize>,
 }
 
@@ -66,11 +65,11 @@ impl Default for Rock {
 pub struct Sleep {
     /// Speed below which a block counts as resting, m/s; for its spin, that of its farthest point.
     pub speed: f64,
-    /// How long it must have rested, s.
+    /// Time for which it must have rested, s.
     pub time: f64,
 }
 
-/// Where pairs of blocks that may touch are searched; the pairs are the same, bit for bit.
+/// Where the broadphase, the search for pairs that may touch, runs; the pairs are bitwise the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Search {
@@ -79,7 +78,7 @@ pub enum Search {
     Auto,
     /// On the host; needs no GPU.
     Host,
-    /// On the device, as a fluid will need it.
+    /// On the device.
     Device,
 }
 

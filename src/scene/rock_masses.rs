@@ -1,4 +1,4 @@
-//! Rock masses that joints cut into blocks.
+//! Rock masses, cut into blocks by joints.
 
 use std::path::PathBuf;
 
@@ -33,20 +33,19 @@ pub struct RockMass {
     /// The upward direction, from which dips are measured. Default against gravity.
     #[serde(default)]
     pub up: Option<[f64; 3]>,
-    /// The direction from which dip directions are measured, clockwise seen from above. Default
-    /// (0, 1, 0).
+    /// The direction from which dip directions are measured, clockwise seen from above. Default (0, 1, 0).
     #[serde(default = "north")]
     pub north: [f64; 3],
-    /// Smaller pieces are left out, m³: the smallest block decides how long a time step may be.
-    /// Default 0: only pieces that are too thin for contact, below 1e-4 of their size, are left out.
+    /// Smaller pieces are left out, m³: the smallest block limits the time step. Default 0: only pieces that are too
+    /// thin for contact, below 1e-4 of their size, are left out.
     #[serde(default)]
     pub smallest_volume: f64,
-    /// Pieces with a face nearer to their centroid than this fraction of their extent are left out, no
-    /// unit. Default 0: as above.
+    /// Pieces with a face nearer to their centroid than this fraction of their extent are left out, no unit. Default 0: as for
+    /// `smallest_volume`.
     #[serde(default)]
     pub smallest_thickness: f64,
-    /// Width of the open joints, m: every face of every block is set back by half of it,
-    /// outer faces too. A fluid flows in joints of a cell and more. Default 0.
+    /// Width of the open joints, m: every face of every block is set back by half of it, including outer faces. A
+    /// fluid flows in joints of a cell and more. Default 0.
     #[serde(default)]
     pub aperture: f64,
     /// Regions whose blocks, by their centroids, are fixed. Default none.
@@ -122,7 +121,7 @@ pub struct JointSet {
     pub dip_direction: f64,
     /// Mean distance from joint to joint along their normal, m.
     pub spacing: f64,
-    /// How the distances vary. Default `none`.
+    /// Distribution of the distances. Default `none`.
     #[serde(default)]
     pub distribution: Distribution,
     /// Amount of variation, as a fraction of the spacing: for `uniform` half the width, below 1; for `normal`
@@ -135,11 +134,11 @@ pub struct JointSet {
     pub persistence: Option<Persistence>,
 }
 
-/// Distribution of the distances from joint to joint, their mean being the spacing.
+/// Distribution of the distances from joint to joint; their mean is the spacing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Distribution {
-    /// All the same.
+    /// All distances are equal.
     #[default]
     None,
     /// Uniform.
@@ -148,12 +147,12 @@ pub enum Distribution {
     Normal,
     /// Lognormal.
     Lognormal,
-    /// Negative exponential, as of joints placed independently. Makes many thin blocks.
+    /// Negative exponential, for joints placed independently. Makes many thin blocks.
     Exponential,
 }
 
-/// Joints that are not open everywhere: each is divided into squares, some of them open. A joint cuts
-/// a block completely if it is open in the middle of the cut, else not at all.
+/// Joints that are not open everywhere: each is divided into squares, some of them open. A joint cuts a block
+/// completely if it is open in the middle of the cut, otherwise not at all.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Persistence {

@@ -1,4 +1,4 @@
-//! Rules that several tables share.
+//! Checks that several tables share.
 
 use std::collections::HashSet;
 
@@ -6,7 +6,7 @@ use super::Domain;
 use crate::error::{Error, Result};
 use crate::formula::Formula;
 
-/// Longest name: leaves room for a number and an extension in the 255 bytes of a file's name.
+/// Longest name: leaves room for a number and an extension in the 255 bytes of a file name.
 const LONGEST_NAME: usize = 100;
 
 /// Refuses the value at `key`.
@@ -30,7 +30,7 @@ pub(super) fn positive(key: impl Into<String>, value: f64, unit: &str) -> Result
     )
 }
 
-/// `value` must be a number from 0.
+/// `value` must be a number of at least 0.
 pub(super) fn not_negative(key: impl Into<String>, value: f64, unit: &str) -> Result<()> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
@@ -41,7 +41,7 @@ pub(super) fn not_negative(key: impl Into<String>, value: f64, unit: &str) -> Re
     )
 }
 
-/// `direction` must have one.
+/// `direction` must be finite and not zero.
 pub(super) fn direction(key: impl Into<String>, direction: &[f64; 3]) -> Result<()> {
     let key = key.into();
     finite(key.as_str(), direction)?;
@@ -78,7 +78,7 @@ pub(super) fn no_time(key: &str, formulas: &[Formula]) -> Result<()> {
     }
 }
 
-/// Formulas without variables must give numbers that a device can hold.
+/// Formulas without variables must give numbers that are finite in f32.
 pub(super) fn finite_constants(key: &str, formulas: &[Formula]) -> Result<()> {
     for formula in formulas {
         if let Some(value) = formula.constant()
@@ -126,7 +126,7 @@ pub(super) fn ordered(key: &str, min: [f64; 3], max: [f64; 3]) -> Result<()> {
     }
 }
 
-/// A list may neither be empty nor name anything twice.
+/// A list may neither be empty nor contain anything twice.
 pub(super) fn distinct<T: std::hash::Hash + Eq + std::fmt::Debug>(
     key: &str,
     list: &[T],
@@ -144,7 +144,7 @@ pub(super) fn distinct<T: std::hash::Hash + Eq + std::fmt::Debug>(
     }
 }
 
-/// Names must serve as files' names on every system, and differ.
+/// Names must be valid file names on every system, and distinct.
 pub(super) fn names<'a>(list: &str, names: impl Iterator<Item = (usize, &'a str)>) -> Result<()> {
     let mut seen = HashSet::new();
     for (index, name) in names {
@@ -163,7 +163,7 @@ pub(super) fn names<'a>(list: &str, names: impl Iterator<Item = (usize, &'a str)
                 ),
             );
         }
-        // Some file systems do not tell capitals from small letters.
+        // Some file systems are not case-sensitive.
         if !seen.insert(name.to_lowercase()) {
             return refuse(
                 key,

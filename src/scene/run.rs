@@ -17,8 +17,8 @@ pub struct Run {
     pub duration: Option<f64>,
     /// Number of time steps.
     pub steps: Option<u64>,
-    /// Time between checkpoints, s; each replaces the previous one. Default a tenth of the run, in the
-    /// first tenth a hundredth, so that a run that diverges leaves a good state; more for states larger than 0.4 GB.
+    /// Time between checkpoints, s; each replaces the previous one. Default a tenth of the run, but a hundredth during the
+    /// first tenth, so that a run that diverges leaves a good state; more for states larger than 0.4 GB.
     pub checkpoint_every: Option<f64>,
     /// Kind of processor for which the kernels are built. Default `auto`.
     pub kernels: Kernels,
@@ -38,7 +38,7 @@ pub enum Kernels {
 }
 
 impl Kernels {
-    /// What that is on an adapter.
+    /// The kind of processor on an adapter.
     pub fn processor(self, adapter: &wgpu::AdapterInfo) -> Processor {
         match self {
             Self::Auto => Processor::of(adapter),

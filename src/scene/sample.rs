@@ -16,19 +16,19 @@ pub struct InitialFields {
 /// Pressure above the reference pressure at the time 0.
 #[derive(Clone, Debug, PartialEq)]
 pub enum StartPressure {
-    /// A formula of the place, Pa.
+    /// A formula of the position, Pa.
     Given(Formula),
     /// p = zero + gradient·x.
     Linear {
-        /// Pa.
+        /// Pressure at the origin of the coordinates, Pa.
         zero: f64,
-        /// Pa/m.
+        /// Gradient, Pa/m.
         gradient: [f64; 3],
     },
 }
 
 impl StartPressure {
-    /// At a place (m), Pa.
+    /// Pressure at the point `x` (m), Pa.
     pub fn at(&self, x: [f64; 3]) -> f64 {
         match self {
             Self::Given(formula) => formula.eval_at(x, 0.0),
@@ -118,8 +118,8 @@ impl Scene {
         (zero, gradient)
     }
 
-    /// Least and greatest pressure that faces hold in the run, with the reference pressure, 0, among them, Pa; of a formula the
-    /// values at some times.
+    /// Smallest and largest pressure prescribed on faces during the run, including the reference pressure, 0, Pa. A formula is
+    /// sampled at some times.
     pub(super) fn face_pressures(&self) -> [f64; 2] {
         const TIMES: u32 = 100;
         let end = self.run.duration.unwrap_or(0.0);
@@ -135,10 +135,10 @@ impl Scene {
         range([0.0; 2], self.boundaries.iter().filter_map(held).flatten())
     }
 
-    /// Pressure that `face` holds at the time `t` in s, Pa; none where it holds none.
+    /// Pressure prescribed on `face` at the time `t` in s, Pa; `None` if the face prescribes none.
     ///
     /// # Errors
-    /// If its formula is not finite then.
+    /// If its formula is not finite at this time.
     pub fn face_pressure(&self, face: Face, t: f64) -> Result<Option<f64>> {
         let Boundary::Pressure { pressure, .. } = self.boundaries.face(face) else {
             return Ok(None);
@@ -148,7 +148,7 @@ impl Scene {
         finite(&key, pressure, value, [0.0; 3], t).map(Some)
     }
 
-    /// The same with the pressures at the time 0.
+    /// Smallest and largest pressure on faces during the run and in the fluid at the time 0, Pa.
     ///
     /// # Errors
     /// If a formula is not finite somewhere.
@@ -156,7 +156,7 @@ impl Scene {
         let faces = self.face_pressures();
         match self.start_pressure() {
             StartPressure::Given(formula) => {
-                // One place does for a formula that has no place in it.
+                // One point is enough for a constant formula.
                 let places = match formula.is_constant() {
                     true => 1,
                     false => usize::MAX,
@@ -170,7 +170,7 @@ impl Scene {
                         Ok(range(found, [value]))
                     })
             }
-            // It is linear: its greatest and least values are at corners, which its gradient points at.
+            // A linear pressure is smallest and largest at two corners, which its gradient selects.
             start @ StartPressure::Linear { gradient, .. } => {
                 let (low, high) = (self.domain.origin, self.domain.end());
                 let corner = |up: bool| -> [f64; 3] {
@@ -184,8 +184,8 @@ impl Scene {
         }
     }
 
-    /// Velocity on `face` at the time `t` in s, at the centres of the outer cell faces, the lower
-    /// of the two in-plane axes fastest, m/s. At rest where the face gives no velocity.
+    /// Velocity on `face` at the time `t` in s, at the centres of the outer cell faces, the lower of the two in-plane
+    /// axes fastest, m/s. Zero if the face prescribes no velocity.
     ///
     /// # Errors
     /// If a formula is not finite somewhere.
@@ -214,12 +214,12 @@ impl Scene {
         })
     }
 
-    /// Largest speed in the boundaries, the initial state at the time 0 and by a bulk velocity, m/s.
+    /// Largest speed on the boundaries and in the fluid at the time 0 and due to a bulk velocity, m/s.
     ///
     /// # Errors
     /// If a formula is not finite somewhere.
     pub fn sampled_speed(&self) -> Result<f64> {
-        // A laminar flow between plates is half as fast again in the middle.
+        // The maximum of a laminar flow between plates is 1.5 times its mean.
         let kept = self.fluid.kept_velocity().map(|(_, velocity)| velocity);
         let mut largest = 1.5 * kept.unwrap_or_default().abs();
         for (face, boundary) in self.boundaries.iter() {
@@ -251,7 +251,7 @@ impl Scene {
     /// [`Self::sampled_speed`].
     ///
     /// # Errors
-    /// If neither is there.
+    /// If the scene gives neither.
     pub fn velocity_scale(&self) -> Result<f64> {
         if let Some(speed) = self.numerics.velocity_scale {
             return Ok(speed);
@@ -290,7 +290,7 @@ impl Scene {
     }
 }
 
-/// `known` widened so that it holds all of `values`.
+/// The range `known` extended to include all `values`.
 fn range(known: [f64; 2], values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     values.into_iter().fold(known, |[low, high], value| {
         [low.min(value), high.max(value)]
@@ -318,7 +318,7 @@ fn vector_at(key: &str, formulas: &[Formula; 3], x: [f64; 3], t: f64) -> Result<
     Ok(vector)
 }
 
-/// `value`, if it is a number that a device can hold.
+/// `value`, if it is finite in f32.
 fn finite(
     key: &(impl std::fmt::Display + ?Sized),
     formula: &Formula,

@@ -8,11 +8,11 @@ use toml::de::{DeTable, DeValue};
 use super::parse::Refusal;
 use crate::output::Table;
 
-/// Puts the numbers of files, which are looked for in `dir`, in the place of their names in formulas.
+/// Replaces the names of files in formulas by their numbers; paths are relative to `dir`.
 pub(super) fn insert(table: &mut DeTable<'_>, dir: &Path) -> Result<(), Refusal> {
     table.iter_mut().try_for_each(|(key, value)| {
         let key = key.get_ref().to_string();
-        // Names and titles are no formulas.
+        // Names and titles are not formulas.
         if matches!(key.as_str(), "title" | "name") {
             return Ok(());
         }
@@ -38,7 +38,7 @@ fn insert_in(value: &mut Spanned<DeValue<'_>>, dir: &Path) -> Result<(), Refusal
     }
 }
 
-/// The formula with numbers in the place of `'FILE'`.
+/// The formula with numbers in place of each `'FILE'`.
 fn expand(text: &str, dir: &Path) -> Result<String, String> {
     let mut parts = text.split('\'');
     let mut expanded = parts.next().unwrap_or_default().to_owned();
@@ -52,7 +52,7 @@ fn expand(text: &str, dir: &Path) -> Result<String, String> {
     Ok(expanded)
 }
 
-/// The two columns of a file, row by row.
+/// The two columns of a file, row by row, as arguments of `interpolate`.
 fn points(path: &Path) -> Result<String, String> {
     let table = Table::read(path).map_err(|error| error.to_string())?;
     let refused = |why: &str| Err(format!("{}: {why}", path.display()));

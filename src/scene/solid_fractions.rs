@@ -1,4 +1,4 @@
-//! Which part of each cell static solids fill.
+//! Solid fraction of each cell due to static solids.
 
 use super::{Boundary, Domain, Face, Scene, Shape, Solid, SolidSurface, static_solids::Mask};
 use crate::{
@@ -8,32 +8,33 @@ use crate::{
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// A cell of which this part is solid or fluid is so altogether: above the rounding of decimal coordinates.
+/// Solid or fluid fraction below which a cell is entirely fluid or solid: above the rounding of decimal coordinates.
 const WHOLE: f64 = 1e-4;
-/// Radius below which the growth of a sphere is no more, cells.
+/// Radius below which the growth of a sphere does not increase further, cells.
 const LEAST_RADIUS: f64 = 2.0;
 
-/// What the solids of a scene fill.
+/// The cells that the solids of a scene fill.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolidFractions {
-    /// The cells that are solid altogether.
+    /// The cells that are entirely solid.
     pub mask: Mask,
-    /// The places of those that are solid in part, x fastest, and that part, in ascending order.
+    /// Index (x fastest, ascending) and solid fraction of the cells that are partially solid.
     pub partial: Vec<(u32, f32)>,
 }
 
 impl Scene {
-    /// The cells that the solids of the scene fill, in whole and in part. Where several solids cut a cell their parts add up to one at most;
-    /// cells at pressure faces are solid altogether from one half on, and fluid below.
+    /// The cells that the solids of the scene fill, entirely or partially. If several solids cut a cell, their fractions add
+    /// up, to at most one. Cells at pressure faces are entirely solid from one half on, and fluid below.
     ///
     /// # Errors
-    /// If the file of a mesh or terrain cannot be read, a mesh is open or lies wholly outside the domain, a terrain leaves a part of
-    /// the domain without heights, or no fluid is left.
+    /// If the file of a mesh or terrain cannot be read, a mesh is open or lies wholly outside the domain, a terrain leaves a
+    /// part of the domain without heights, or no fluid is left.
     pub fn solid_fractions(&self) -> Result<SolidFractions> {
         self.solid_fractions_grown(0.0)
     }
 
-    /// The same with spheres of R cells that have `growth`/R cells more in their radius, which the exact weight lacks on them.
+    /// As [`Self::solid_fractions`], with the radius of spheres of R cells enlarged by `growth`/R cells, which the exact weight
+    /// lacks on them.
     pub(crate) fn solid_fractions_grown(&self, growth: f64) -> Result<SolidFractions> {
         let mut mask = Mask::new(self.cells())?;
         let mut partial = Vec::new();
@@ -50,7 +51,7 @@ impl Scene {
             let some = (0..).zip(filled).filter(|(_, part)| *part > 0.0);
             for (n, part) in some {
                 let cell = place(cells, n);
-                // An outflow face carries on what its cells have, and that grows in cells with solid.
+                // An outflow face continues the state of its cells, which grows in cells that are partially solid.
                 let whole = if self.is_at_outlet(cell) { 0.5 } else { WHOLE };
                 if f64::from(part) >= 1.0 - whole {
                     mask.set(cell, true);
@@ -82,7 +83,7 @@ impl Scene {
         faces.any(|(face, boundary)| matches!(boundary, Boundary::Pressure { .. }) && at(face))
     }
 
-    /// Calls `mark` for each cell of each solid and hole, in their order, with the part of it that they fill.
+    /// Calls `mark` for each cell of each solid and hole, in their order, with the fraction that they fill.
     pub(super) fn fill_solids(
         &self,
         growth: f64,
@@ -105,7 +106,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The mesh of a solid, which must be closed and reach into the domain.
+    /// The mesh of a solid, which must be closed and reach into the domain; `None` for other shapes.
     pub(super) fn solid_mesh(&self, key: &str, shape: &Shape) -> Result<Option<TriangleMesh>> {
         let Shape::Mesh {
             file,
@@ -124,7 +125,7 @@ impl Scene {
         Ok(Some(mesh))
     }
 
-    /// The terrain of a solid, if it is one.
+    /// The terrain of a solid; `None` for other shapes.
     pub(crate) fn terrain(&self, shape: &Shape) -> Result<Option<Terrain>> {
         match shape {
             Shape::Terrain {
@@ -136,7 +137,7 @@ impl Scene {
         }
     }
 
-    /// The triangles of a solid, m; of a terrain those of its heights alone.
+    /// The triangles of the surface of a solid, m; for a terrain only those of the height surface.
     fn surface_of(&self, key: &str, shape: &Shape, growth: f64) -> Result<Vec<[DVec3; 3]>> {
         if let Some(terrain) = self.terrain(shape)? {
             let (origin, end) = (self.domain.origin, self.domain.end());
@@ -174,7 +175,7 @@ impl Scene {
         }
     }
 
-    /// A terrain has heights over all of the domain: `gap` is a column where it has not.
+    /// Checks that a terrain has heights over all of the domain; `gap` is a column without one.
     pub(super) fn check_covered(&self, key: &str, gap: Option<[u32; 2]>) -> Result<()> {
         let Some([i, j]) = gap else {
             return Ok(());
@@ -191,7 +192,7 @@ impl Scene {
 }
 
 impl Solid {
-    /// Whether the fluid has its surface where it is, and not as a staircase of cells.
+    /// Whether the fluid is bounded by the true surface, not by a staircase of cells.
     pub(super) fn is_exact(&self) -> bool {
         let usual = match self.shape {
             Shape::Terrain { .. } => SolidSurface::Exact,
@@ -201,7 +202,8 @@ impl Solid {
     }
 }
 
-/// The parts of cells inside a closed surface, or below a terrain; the first column without a height of that.
+/// Calls `mark` with the fraction of each cell inside a closed surface or below a terrain; returns the first column without a
+/// height of the terrain.
 fn fill(
     triangles: &[[DVec3; 3]],
     domain: &Domain,
@@ -217,7 +219,7 @@ fn fill(
             gap = gap.or(Some([i, j]));
         }
         for (k, volume) in (0..).zip(volumes) {
-            // A mesh turned inside out has −1 inside.
+            // An inverted mesh has −1 inside.
             let part = volume.abs().min(1.0);
             if part > 0.0 {
                 mark([i, j, k], part);
@@ -227,12 +229,12 @@ fn fill(
     gap
 }
 
-/// Where cell n of a grid is, x fastest.
+/// Indices i, j, k of the cell n of a grid, x fastest.
 fn place([nx, ny, _]: [u32; 3], n: u32) -> [u32; 3] {
     [n % nx, n / nx % ny, n / (nx * ny)]
 }
 
-/// The triangles of a polyhedron about `centre`, against the clock seen from outside.
+/// The triangles of a polyhedron about `centre`, counter-clockwise seen from outside.
 fn triangles_of(shape: &Polyhedron, centre: DVec3) -> Vec<[DVec3; 3]> {
     let corner = |n: u32| shape.vertices()[n as usize] + centre;
     let fan = |face: &Vec<u32>| {
@@ -243,7 +245,7 @@ fn triangles_of(shape: &Polyhedron, centre: DVec3) -> Vec<[DVec3; 3]> {
     all.map(|corners| corners.map(corner)).collect()
 }
 
-/// A sphere of triangles with edges of at most a quarter of a cell (m), of the volume of the sphere.
+/// A triangulated sphere with edges of at most a quarter of a cell (m) and exactly the volume of the sphere.
 fn sphere(centre: DVec3, radius: f64, cell: f64) -> Vec<[DVec3; 3]> {
     let rings = ((PI * radius / (0.25 * cell)).ceil() as usize).clamp(24, 2000);
     let step = PI / rings as f64;

@@ -14,8 +14,9 @@ use crate::error::Result;
 
 /// A static solid, or a hole in the solids listed before it.
 ///
-/// A cell is solid if its centre lies in a solid; later entries win over earlier ones. For blocks, a
-/// solid is a fixed block; a half-space then reaches as far beyond the domain as the domain is wide.
+/// A cell is solid if its centre lies in a solid, unless `surface` is `exact`; later entries override earlier ones.
+/// For blocks, a solid is a fixed block; a half-space then extends beyond the domain by the longest edge of the
+/// domain.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
@@ -111,7 +112,7 @@ impl Shape {
     ];
 }
 
-/// A region has only the keys of a solid for its shape and position.
+/// Checks that a region has only the keys of a solid for its shape and position.
 pub(super) fn check_region(region: &DeTable<'_>, _: &str) -> Result<(), String> {
     let mut others = ["name", "void", "material", "surface", "roughness"].iter();
     match others.find(|key| region.contains_key(**key)) {
@@ -148,7 +149,7 @@ impl Scene {
         Ok(())
     }
 
-    /// The numbers of a shape.
+    /// Checks the numbers of a shape.
     pub(super) fn check_region(&self, key: &str, shape: &Shape) -> Result<()> {
         match shape {
             Shape::Box { min, max } => ordered(key, *min, *max),
@@ -172,7 +173,7 @@ impl Scene {
         }
     }
 
-    /// Whether a shape without a file is where the domain is.
+    /// Checks that a shape without a file reaches into the domain.
     fn check_place(&self, key: &str, shape: &Shape) -> Result<()> {
         match shape {
             Shape::Box { min, max } => self.check_reach(key, *min, *max),

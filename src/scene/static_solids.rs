@@ -20,10 +20,10 @@ pub struct Mask {
 }
 
 impl Mask {
-    /// All fluid on a grid of `cells` along x, y, z.
+    /// A mask without solid cells, for a grid of `cells` along x, y, z.
     ///
     /// # Errors
-    /// If they do not fit into memory.
+    /// If the cells do not fit into memory.
     pub fn new(cells: [u32; 3]) -> Result<Self> {
         let count: u128 = cells.iter().map(|n| u128::from(*n)).product();
         let mut solid = Vec::new();
@@ -47,7 +47,7 @@ impl Mask {
         &self.solid
     }
 
-    /// Place of the cell `ijk` in [`Self::as_slice`].
+    /// Index of the cell `ijk` in [`Self::as_slice`].
     pub fn index(&self, [i, j, k]: [u32; 3]) -> usize {
         let [nx, ny, _] = self.cells.map(|n| n as usize);
         (k as usize * ny + j as usize) * nx + i as usize
@@ -58,12 +58,12 @@ impl Mask {
         (0..3).all(|axis| ijk[axis] < self.cells[axis])
     }
 
-    /// Whether the cell `ijk` is solid; those outside of the grid are not.
+    /// Whether the cell `ijk` is solid; cells outside the grid are not.
     pub fn is_solid(&self, ijk: [u32; 3]) -> bool {
         self.has(ijk) && self.solid[self.index(ijk)] != 0
     }
 
-    /// Makes the cell `ijk` solid or fluid; those outside of the grid stay as they are.
+    /// Makes the cell `ijk` solid or fluid; cells outside the grid are ignored.
     pub fn set(&mut self, ijk: [u32; 3], solid: bool) {
         if self.has(ijk) {
             let index = self.index(ijk);
@@ -98,10 +98,10 @@ impl Mask {
 }
 
 impl Scene {
-    /// The cells that the solids of the scene fill altogether.
+    /// The cells that the solids of the scene fill entirely.
     ///
     /// # Errors
-    /// Those of [`Scene::solid_fractions`].
+    /// The errors of [`Scene::solid_fractions`].
     pub fn solid_mask(&self) -> Result<Mask> {
         Ok(self.solid_fractions()?.mask)
     }
@@ -149,11 +149,11 @@ impl Scene {
     }
 }
 
-/// How near, in cells, a centre counts as lying on a surface: above the rounding of decimal
-/// coordinates, below anything that matters.
+/// Distance, in cells, within which a centre counts as lying on a surface: above the rounding of decimal coordinates,
+/// below any relevant length.
 const ON_SURFACE: f64 = 1e-6;
 
-/// Calls `mark` for each cell whose centre lies inside `shape`. A mesh and a terrain have none here.
+/// Calls `mark` for each cell whose centre lies inside `shape`; for none if it is a mesh or a terrain.
 fn cells_in_shape(shape: &Shape, domain: &Domain, mut mark: impl FnMut([u32; 3])) {
     let slack = ON_SURFACE * domain.cell;
     let [nx, ny, nz] = domain.cells();
@@ -168,8 +168,8 @@ fn cells_in_shape(shape: &Shape, domain: &Domain, mut mark: impl FnMut([u32; 3])
     }
 }
 
-/// Whether `shape` contains the point `x` in m, which a mesh and a terrain do not say; a point within `slack` m of a surface belongs to
-/// the side of larger coordinates.
+/// Whether `shape`, other than a mesh or a terrain, contains the point `x` in m; a point within `slack` m of a surface belongs
+/// to the side of larger coordinates.
 fn contains(shape: &Shape, x: [f64; 3], slack: f64) -> bool {
     match shape {
         Shape::Box { min, max } => (0..3).all(|a| min[a] - slack <= x[a] && x[a] < max[a] - slack),
@@ -184,11 +184,10 @@ fn contains(shape: &Shape, x: [f64; 3], slack: f64) -> bool {
     }
 }
 
-/// Shift of the points at which the winding number is taken, in cells: centres that lie on the
-/// surface then belong to the side of larger coordinates. Above the rounding of f32 coordinates
-/// (6e-8 of up to 10³ cells).
+/// Shift of the points at which the winding number is evaluated, in cells: centres that lie on the surface then
+/// belong to the side of larger coordinates. Above the rounding of f32 coordinates (6e-8 of up to 10³ cells).
 const SHIFT: f64 = 1e-4;
-/// Half the edge of the cube in which a cell looks for the surface, in cells; holds the shifted
+/// Half the edge of the cube around a cell centre in which the surface is searched, in cells; it contains the shifted
 /// lines between neighbours.
 const HALF: f64 = 0.5 + 2.0 * SHIFT;
 
@@ -208,7 +207,7 @@ fn cells_in_mesh(mesh: &TriangleMesh, domain: &Domain, mut mark: impl FnMut([u32
     let tree = WindingTree::new(mesh);
     let contains = |cell| {
         let centre = DVec3::from(domain.centre(cell)) + DVec3::splat(SHIFT * domain.cell);
-        // A mesh turned inside out has −1 inside.
+        // An inverted mesh has −1 inside.
         tree.at(centre).abs() > 0.5
     };
     let mut state = vec![State::Unknown; domain.cell_count()];
@@ -303,7 +302,7 @@ impl Grid<'_> {
     }
 }
 
-/// Whether the triangle `corners` touches the cube of half the edge `half` around `centre`: by separating axes
+/// Whether the triangle `corners` touches the cube with half the edge `half` around `centre`, by separating axes
 /// (Akenine-Möller 2001).
 fn touches(corners: [DVec3; 3], centre: DVec3, half: f64) -> bool {
     let v = corners.map(|c| c - centre);

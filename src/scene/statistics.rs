@@ -9,14 +9,14 @@ use crate::error::Result;
 
 /// Means and fluctuations over time, from the time at which the flow has developed.
 ///
-/// Each probe with `every` then has a table of its own, `NAME_statistics.csv`, with mean, RMS, skewness, extremes and the
-/// statistical error of the mean of each of its columns; a probe of one row a spectrum too, `NAME_spectrum.csv`, and a line
-/// the correlation between its points, `NAME_correlation.csv`. A fluid on a lattice can show the fields `mean_velocity`,
+/// Each probe with `every` then also writes `NAME_statistics.csv`, with mean, RMS, skewness, extremes and the statistical error
+/// of the mean of each of its columns. A probe with one row also writes a spectrum, `NAME_spectrum.csv`, and a line the
+/// correlation between its points, `NAME_correlation.csv`. A fluid on a lattice also has the fields `mean_velocity`,
 /// `mean_pressure`, `pressure_rms`, `reynolds_stress` and `turbulent_kinetic_energy`, wherever fields are named.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Statistics {
-    /// Time from which samples count, s.
+    /// Time from which samples are taken, s.
     pub from: f64,
     /// Time between samples of the fields, s, rounded to an odd number of steps: velocities next to walls may alternate from one
     /// step to the next. Default 21 steps.
@@ -59,13 +59,13 @@ impl Scene {
         }
     }
 
-    /// Field statistics need the table `statistics` and a fluid on a lattice.
+    /// Checks that fields that are time statistics are requested only with the table `statistics`.
     pub(super) fn check_statistical(&self, key: &str, fields: &[Field]) -> Result<()> {
         match fields.iter().find(|field| field.is_statistical()) {
             Some(field) if self.statistics.is_none() => refuse(
                 key,
                 format!(
-                    "`{}` is over time; add [statistics] with `from`, the time (s) from which it counts, or leave the field out",
+                    "`{}` is a time statistic; add [statistics] with `from`, the time (s) of the first sample, or leave it out",
                     field.name()
                 ),
             ),

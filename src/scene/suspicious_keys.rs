@@ -1,25 +1,24 @@
-//! What computes, but is probably not what was meant.
+//! Warnings about keys that are valid, but probably not as intended.
 
 use super::{Advice, Block, BlockShape, Motion, Scene, Warning};
 use crate::formula::Formula;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Sine of the angle from which two directions differ, and share of a time that counts as none: the rounding of what
-/// scenes write.
+/// Tolerance for the rounding of numbers in scenes: of the sine of an angle between directions, and relative of times and
+/// stiffnesses.
 const ROUNDED: f64 = 1e-3;
-/// Share of the gravity of the blocks from which the acceleration of the fluid is a gravity, too: less drives a flow.
+/// Fraction of the gravity of the blocks from which the acceleration of the fluid is gravity, too; a smaller one drives a flow.
 const GRAVITY: f64 = 0.5;
-/// Angle of friction, degrees, below which the number is rather its tangent: that of 56°. Nothing between dry rocks is
-/// as slippery.
+/// Angle of friction, degrees, below which the number is probably a tangent: as a tangent it is that of 56°. No contact of dry
+/// rocks is so slippery.
 const TANGENT: f64 = 1.5;
-/// Depth to which a block may sink at rest, as a share of its least distance from centroid to face or of its radius: as much
+/// Largest overlap of a block at rest, as a fraction of its smallest distance from centroid to face or of its radius: as much
 /// as blocks may overlap at the start.
 const SINKS: f64 = 0.01;
 
 impl Scene {
-    /// Warns of keys that contradict each other, or are probably in another unit than they should be, in a run in steps
-    /// of `time_step` (s).
+    /// Warns of keys that contradict each other or are probably in the wrong unit, for a run in steps of `time_step` (s).
     pub fn suspicious_keys(&self, time_step: f64) -> Advice {
         let mut advice = Advice::new();
         let mut warn = |place: String, message: String| advice.push(Warning { place, message });
@@ -29,7 +28,7 @@ impl Scene {
                 format!(
                     "the fluid weighs along {fluid:?} m/s² (fluid.acceleration) and the blocks fall along {rock:?} m/s² with \
                      buoyancy against both; give one direction to both, or, where the acceleration drives a flow alone, \
-                     take no notice"
+                     ignore this warning"
                 ),
             );
         }
@@ -49,7 +48,7 @@ impl Scene {
             warn(
                 "coupling.interval".into(),
                 format!(
-                    "blocks meet the fluid every {exchange:.3e} s and the run ends at {length:.6} s: none of them will feel \
+                    "blocks meet the fluid every {exchange:.3e} s and the run ends at {length:.6} s: none of them will react to \
                      it; take less, or run longer"
                 ),
             );
@@ -114,12 +113,13 @@ impl Scene {
         advice
     }
 
-    /// How deep a free box or sphere at rest sinks into a plane of its own material, as a share of half its least edge or of
-    /// its radius, and the stiffness of the contact that keeps it to [`SINKS`], Pa/m; None where it does not sink deeper.
+    /// Overlap of a free box or sphere at rest with a plane of its own material, as a fraction of half its smallest edge or of
+    /// its radius, and the stiffness that reduces this overlap to [`SINKS`], Pa/m; `None` if the overlap is not larger than
+    /// that.
     ///
-    /// The contact presses with k_n A(u) u at the depth u (Hart, Cundall & Lemos 1988). A is the face of a box, at most the
-    /// largest one, and of a sphere the circle that the plane cuts out, π u (2R − u), but not less than
-    /// `rock.corner_area` (2R)². Where there is a fluid the weight is that under water.
+    /// The contact force is k_n A(u) u at the depth u (Hart, Cundall & Lemos 1988). A is the largest face of a box, and for a
+    /// sphere the circle that the plane cuts out, π u (2R − u), but not less than `rock.corner_area` (2R)². In a fluid the
+    /// weight is the submerged weight.
     fn sinks(&self, block: &Block) -> Option<(f64, f64)> {
         let material = match &block.material {
             Some(name) => self.materials.iter().find(|one| one.name == *name),
@@ -152,7 +152,7 @@ impl Scene {
         if needed <= material.normal_stiffness * (1.0 + ROUNDED) {
             return None;
         }
-        // k A(u) u grows with u: by bisection to its radius, beyond which it falls through.
+        // k A(u) u grows with u: bisection up to `size`, beyond which the block falls through.
         let presses = |depth: f64| material.normal_stiffness * area(depth) * depth;
         let (mut low, mut high) = (limit, size);
         for _ in 0..40 {
@@ -165,7 +165,7 @@ impl Scene {
         Some((high / size, needed))
     }
 
-    /// Accelerations of the fluid and of blocks, m/s², if they lead to different sides.
+    /// Accelerations of the fluid and of blocks, m/s², if their directions differ.
     fn gravities(&self) -> Option<([f64; 3], [f64; 3])> {
         let rock = self.rock.gravity;
         let constant = self.fluid.acceleration.each_ref().map(|a| a.constant());

@@ -2,7 +2,7 @@
 //!
 //! serde's internally tagged enums buffer their content and lose the line and column of an error. So before a document is read
 //! into types, the kind of such a table becomes an external tag: `{ kind = "sphere", radius = 1, name = "a" }` becomes
-//! `{ kind = { sphere = { radius = 1 } }, name = "a" }`, in which all values keep their places in the text.
+//! `{ kind = { sphere = { radius = 1 } }, name = "a" }`; all values keep their positions in the text.
 
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
@@ -10,25 +10,25 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::parse::{Refusal, unknown};
 use super::{BlockShape, Boundary, Face, ProbePlace, Shape, Volume, blocks, probes, solids};
 
-/// A kind of a table: its word, the keys that it needs, and those that it may have besides.
+/// A kind of a table: its name, its required keys and its optional keys.
 pub(super) type Kind = (&'static str, &'static str, &'static str);
 
-/// What else holds for a table of a kind.
+/// Additional check of a table of a kind.
 type Rule = fn(&DeTable<'_>, &str) -> Result<(), String>;
 
 /// Tables with a kind.
 struct Tagged {
-    /// Keys from the scene to them, joined by dots; through lists, and through all faces where one is `*`.
+    /// Path of keys from the scene to the tables, joined by dots. It passes through lists; `*` stands for all faces.
     path: &'static str,
-    /// All keys of all of them.
+    /// All keys of these tables, whatever the kind.
     keys: &'static str,
     kinds: &'static [Kind],
-    /// Whether all of their keys are of their kinds.
+    /// Whether all keys of these tables belong to their kinds.
     is_enum: bool,
     rule: Rule,
 }
 
-/// All of them, those inside of others first.
+/// All tables with a kind, inner ones first.
 const TAGGED: [Tagged; 10] = [
     Tagged {
         path: "boundaries.*",
@@ -82,7 +82,7 @@ const TAGGED: [Tagged; 10] = [
     },
 ];
 
-/// Parts of compounds: blocks without the keys that concern their motion.
+/// Parts of compounds; the rule refuses keys that belong to the whole block.
 const PART: Tagged = Tagged {
     path: "blocks.parts",
     keys: "kind name size vertices faces edge radius file scale hull parts position rotation motion velocity spin \
@@ -92,7 +92,7 @@ const PART: Tagged = Tagged {
     rule: blocks::check_part,
 };
 
-/// Regions: solids without the keys that do not say where they are.
+/// Regions; the rule refuses keys of solids other than shape and position.
 const REGION: Tagged = Tagged {
     path: "rock_masses.fixed",
     keys: "kind name void material surface roughness min max point normal center radius file scale translate",
@@ -146,7 +146,7 @@ impl Tagged {
             message,
         };
         let DeValue::Table(table) = value.get_mut() else {
-            // What serde expects of a struct, it says; an enum it would read from a word.
+            // serde refuses another type for a struct with its own message, but would read an enum from a word.
             return match self.is_enum {
                 true => Err(refuse("is not a table; give one with a `kind`".into())),
                 false => Ok(()),
@@ -195,7 +195,7 @@ fn has((_, needs, may_have): &Kind, key: &str) -> bool {
     keys.any(|own| own == key)
 }
 
-/// Whether `table` has the keys of its kind, and none of those `of_kinds` that are of others.
+/// Checks that `table` has the required keys of its kind, and none of the keys `of_kinds` that belong to other kinds only.
 fn fits(table: &DeTable<'_>, of_kinds: &[&str], kind: &Kind) -> Result<(), String> {
     let (word, needs, may_have) = kind;
     let foreign = |key: &&&str| table.contains_key(**key) && !has(kind, key);
@@ -222,7 +222,7 @@ fn fits(table: &DeTable<'_>, of_kinds: &[&str], kind: &Kind) -> Result<(), Strin
     }
 }
 
-/// Moves the keys of a kind from `table` to one below its word; the word alone where it has none.
+/// Moves the keys of a kind from `table` to a table below the name of the kind; only the name if the kind has no keys.
 fn content<'i>(table: &mut DeTable<'i>, (word, needs, may_have): &Kind) -> DeValue<'i> {
     let word = DeString::Borrowed(*word);
     if needs.is_empty() && may_have.is_empty() {

@@ -14,11 +14,10 @@ use crate::error::Result;
 pub struct View {
     /// Name of the files.
     pub name: String,
-    /// Position of the camera, m. Default, without `to` too: as near as all blocks that move are in
-    /// the first picture, with all of the `slices`, and of the domain where there are `traces`, seen
-    /// along `direction`.
+    /// Position of the camera, m. Default, without `to` too: seen along `direction`, as near as possible with all
+    /// moving blocks of the first picture, all `slices` and, with `traces`, the whole domain in view.
     pub from: Option<[f64; 3]>,
-    /// The point in the middle of the picture, m; with `from` only.
+    /// The point in the middle of the picture, m; requires `from`.
     pub to: Option<[f64; 3]>,
     /// The direction in which a camera without `from` looks. Default (−0.45, 0.8, −0.4).
     pub direction: Option<[f64; 3]>,
@@ -30,19 +29,19 @@ pub struct View {
     /// Width and height, pixels. Default 1280 × 720.
     #[serde(default = "View::usual_size")]
     pub size: [u32; 2],
-    /// Speed of the last colour, m/s: of blocks, or of traces and of slices of `speed` without a
-    /// `range` if there are any. Default for blocks √(2gL), the speed after a fall through L, the
-    /// largest extent of a block that moves; for the fluid the largest in the picture.
+    /// Speed at the end of the colour scale, m/s: of blocks, or, if there are any, of traces and of slices of `speed`
+    /// without a `range`. Default for blocks √(2gL), the speed after a fall through L, the largest extent of a block
+    /// that moves; for the fluid the largest in the picture.
     pub speed: Option<f64>,
-    /// Planes through the fluid that are shown among the blocks, which then have the colour of stone
-    /// and not of their speed. Default none.
+    /// Planes through the fluid that are shown among the blocks, which then have the colour of stone instead of that
+    /// of their speed. Default none.
     #[serde(default)]
     pub slices: Vec<ViewSlice>,
-    /// Largest number of lines along the flow, spread over all of the fluid and coloured by its
-    /// speed; blocks then have the colour of stone. Default 0.
+    /// Largest number of streamlines, spread over all of the fluid and coloured by its speed; blocks then have the
+    /// colour of stone. Default 0.
     #[serde(default)]
     pub traces: u32,
-    /// Height of the ground that is drawn, m along up from the origin. Default none.
+    /// Height of the ground that is drawn, m, along `up` from the origin. Default none.
     pub ground: Option<f64>,
     /// Time between pictures, s. Default `output.every`.
     pub every: Option<f64>,
@@ -66,8 +65,8 @@ pub struct ViewSlice {
     pub position: Option<f64>,
     /// Field of the plane; not `solid`.
     pub field: SliceField,
-    /// Smallest and largest value of the colours, in the field's unit. Default those in the picture,
-    /// which keeps no colour over an animation; slices of one field share them.
+    /// Smallest and largest value of the colours, in the field's unit. Default those in the picture, so that colours
+    /// change in an animation; slices of one field share them.
     pub range: Option<[f64; 2]>,
 }
 
@@ -107,7 +106,7 @@ const SMALLEST: u32 = 64;
 
 impl Scene {
     pub(super) fn check_views(&self) -> Result<()> {
-        // Slices come first: views may not take their files.
+        // Slices come first: views must not use their file names.
         let slices = self.output.slices.iter().map(|slice| slice.name.as_str());
         let views = self.views.iter().map(|view| view.name.as_str());
         let count = self.output.slices.len();

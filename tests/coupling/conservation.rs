@@ -1,4 +1,4 @@
-//! Nothing is lost between blocks and fluid.
+//! Conservation of mass and momentum between blocks and fluid.
 
 use crate::fixture::{DENSITY, STEP, World, accelerated_fluid, fluid, material};
 use glam::DVec3;
@@ -6,7 +6,7 @@ use kit::{assert_near, assert_relative};
 use riprap::scene::Field;
 use std::f64::consts::PI;
 
-/// Momenta are sums over some thousand cells in f32: rounding of the largest of them, kg m/s.
+/// Rounding error of a momentum, kg m/s: momenta are f32 sums over some thousand cells.
 fn rounding(momentum: DVec3) -> f64 {
     1e-6 * (momentum.length() + 100.0)
 }
@@ -15,8 +15,8 @@ fn rounding(momentum: DVec3) -> f64 {
 /// edges of √(12/5) r.
 const BOXES: [[f64; 3]; 2] = [[2.0, 2.5, 2.5], [1.936_491_673_103_708_4; 3]];
 
-/// What a block seems to be heavier, kg, of the mass `mass` and that of the fluid that it displaces: stable for an added mass
-/// that is two thirds of the latter, more if it is flat, grown by a layer of a cell of 0.5 m on each side, and the layer.
+/// Virtual mass of a block, kg, of the mass `mass` and displaced fluid mass `displaced`: stable for an added mass of two thirds
+/// of the latter, more for a flat block, grown by a layer of a cell of 0.5 m on each side, plus that layer.
 fn virtual_mass([a, b, c]: [f64; 3], displaced: f64, mass: f64) -> f64 {
     let grown = (a + 1.0) * (b + 1.0) * (c + 1.0) / (a * b * c);
     let flat = ((b + 1.0) * (c + 1.0)).sqrt() / (a + 1.0);
@@ -62,7 +62,7 @@ fn what_driven_blocks_give_the_fluid_gains_in_every_step() {
             off.length() < rounding(after),
             "step {step}: {off} of {after}"
         );
-        // Rounding of f32 in each step.
+        // The tolerance covers rounding of f32 in each step.
         assert!(
             (now / mass - 1.0).abs() < 1e-6,
             "step {step}: {now} kg, not {mass}"
@@ -71,7 +71,7 @@ fn what_driven_blocks_give_the_fluid_gains_in_every_step() {
     }
 }
 
-/// The same of faces along the grid with a law of the wall; a block moves off the grid, and its faces lose the law and have it again.
+/// The same for faces along the grid with a wall law, which stops and restarts on the faces of a block that moves off the grid.
 #[test]
 fn what_the_wall_model_takes_from_the_fluid_blocks_gain() {
     let scene = format!(
@@ -122,8 +122,8 @@ fn what_the_wall_model_takes_from_the_fluid_blocks_gain() {
     assert!(faces.iter().all(|faces| *faces > 20), "{faces:?}");
 }
 
-/// Single loads in every step: momentum goes from the fluid to the block without a remainder, and the block moves
-/// under what it gets and the inertia of the fluid inside it, (m + 2 m_f) a = F + m_f dv/dt + 2 m_f a_before.
+/// With single loads in every step, momentum goes from the fluid to the block without a remainder, and the block moves under
+/// its load and the inertia of the fluid inside it, (m + 2 m_f) a = F + m_f dv/dt + 2 m_f a_before.
 #[test]
 fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
     let scene = format!(
@@ -164,7 +164,7 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
     let mut velocities = [world.velocity(0), world.velocity(1)];
     let mut rates = [DVec3::ZERO; 2];
     let mut given = [DVec3::ZERO; 2];
-    // What the blocks have been given back of the fluid inside them.
+    // Impulse of the fluid inside the blocks that they have been given back.
     let mut inside = DVec3::ZERO;
     for step in 1..=40 {
         world.advance(1);
@@ -176,12 +176,12 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
             "step {step}: {off} of {after}"
         );
         fluid = after;
-        // Impulse that is still to be given for the virtual mass.
+        // Impulse not yet given for the virtual mass.
         let mut pending = DVec3::ZERO;
         for n in 0..2 {
             let mass = world.sim.coupled().unwrap().blocks().mass(n);
             let whole = DENSITY * (load[n].entrained + load[n].missing);
-            // Σε is the volume, to the error of cells that several faces cut.
+            // Σε is the volume, up to the error of cells that several faces cut.
             let off = whole / (DENSITY * volume(n, &world)) - 1.0;
             assert!(off.abs() < 1e-3, "{whole}");
             let inner = whole.min(DENSITY * load[n].entrained + 0.5 * mass);
@@ -206,8 +206,8 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
     }
 }
 
-/// As scenes have it by themselves: means of loads, over one step or several. The blocks slow each other down through
-/// the fluid, and all momentum stays.
+/// By default scenes average loads, over one step or several. The blocks slow each other down through the fluid, and the total
+/// momentum is conserved.
 #[test]
 fn momentum_of_fluid_and_free_blocks_stays() {
     for interval in [1, 3u64] {
@@ -253,8 +253,8 @@ fn momentum_of_fluid_and_free_blocks_stays() {
             let before = world.fluid().0;
             world.advance(1);
             let after = world.fluid().0;
-            // On their way: half of the last load, and what the fluid inside and the virtual mass have got since the
-            // exchange before.
+            // Not yet delivered: half of the last load, and the momentum of the fluid inside and of the virtual mass since
+            // the previous exchange.
             let pending: DVec3 = (0..2)
                 .map(|n| {
                     let displaced = DENSITY * volumes[n];
@@ -266,7 +266,7 @@ fn momentum_of_fluid_and_free_blocks_stays() {
             let all = after + net(&world) + pending - 0.5 * (after - before);
             let off = (all - start).length() / start.length();
             println!("every {interval}, step {}: {off:e}", world.sim.step());
-            // The volume in the cells is that of the blocks to 1e-4 or so.
+            // The volume in the cells equals that of the blocks to about 1e-4.
             assert!(
                 off < 1e-4,
                 "every {interval}, step {}: {off:e}",
@@ -277,7 +277,7 @@ fn momentum_of_fluid_and_free_blocks_stays() {
     }
 }
 
-/// 100 blocks of 4 cells an edge fill three tenths of a periodic box, driven together by their first velocities.
+/// 100 blocks of 4 cells along an edge fill three tenths of a periodic box; their initial velocities drive them together.
 #[test]
 fn a_hundred_blocks_keep_their_momentum_and_their_memory() {
     let mut world = World::new(&format!(
@@ -327,7 +327,7 @@ fn a_hundred_blocks_keep_their_momentum_and_their_memory() {
     world.advance(160);
     let end = all(&mut world);
     println!("{start} {end}, speed {speed_then} to {}", speed(&world));
-    // What is on its way is three times what the fluid inside gets in a step, and half a load.
+    // The momentum not yet delivered is three times that of the fluid inside per step, and half a load.
     assert!(
         (end - start).length() < 0.03 * start.length(),
         "{start} {end}"
@@ -338,7 +338,7 @@ fn a_hundred_blocks_keep_their_momentum_and_their_memory() {
     assert!(grown <= bytes + bytes / 2, "{bytes} B grew to {grown} B");
 }
 
-/// Water driven by a body force past a turned block that is cut into cells, until it is steady.
+/// Water driven by a body force past a rotated block that cuts cells, until it is steady.
 #[test]
 fn every_plane_carries_the_same_water() {
     let text = format!(
@@ -358,7 +358,7 @@ fn every_plane_carries_the_same_water() {
     );
     let mut world = World::new(&text);
     world.advance(2400);
-    // Full cells reflect what they hold: the mean of two steps.
+    // Full cells reflect their populations, hence the mean of two steps.
     let mut planes = [0.0; 10];
     for _ in 0..2 {
         world.advance(1);
@@ -372,7 +372,7 @@ fn every_plane_carries_the_same_water() {
     let mean = planes.iter().sum::<f64>() / 10.0;
     println!("{planes:?}");
     for flux in planes {
-        // With half of the body force in all cells they differ by half a per cent.
+        // If all cells had half of the body force, the planes would differ by half a per cent.
         assert_relative(flux, mean, 1e-4);
     }
 }

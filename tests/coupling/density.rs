@@ -2,8 +2,8 @@
 
 use crate::fixture::{World, fluid, material};
 
-/// Four blocks of half to eight times the density of the fluid that start with a velocity and a spin, a few cells
-/// across: where added masses are largest.
+/// Four blocks of half to eight times the density of the fluid that start with a velocity and a spin, a few cells across,
+/// where added masses are largest.
 #[test]
 fn blocks_of_half_to_eight_times_the_density_come_to_rest() {
     // τ = 0.506, 1.1 and 0.65; the last with exchanges every third step.
@@ -78,8 +78,8 @@ fn blocks_of_half_to_eight_times_the_density_come_to_rest() {
     }
 }
 
-/// Light cubes, eight cells across, in a stream between their own images: nothing there damps sound, and an answer to it
-/// that comes late feeds it.
+/// Light cubes, eight cells across, in a stream between their own images: nothing there damps sound, and a response to it
+/// that is late amplifies it.
 #[test]
 fn sound_between_light_blocks_dies_away() {
     for (interval, ratio) in [(1, 0.3), (1, 0.5), (2, 0.6), (4, 1.0)] {

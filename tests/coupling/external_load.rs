@@ -1,4 +1,4 @@
-//! What the fluid around a block does to it, apart from the inertia of the fluid inside its cells.
+//! External load of the fluid on a block, without the inertia of the fluid inside its cells.
 
 use crate::fixture::{DENSITY, STEP, World, fluid, material};
 use glam::DVec3;
@@ -9,7 +9,7 @@ fn around(world: &World, block: usize) -> FluidLoad {
     world.sim.coupled().unwrap().external_load()[block]
 }
 
-/// m dv/dt is what the fluid does and the weight, nothing else: also in the steps after a restart.
+/// m dv/dt is the external load plus the weight, also in the steps after a restart.
 #[test]
 fn a_free_block_moves_as_what_it_is_told_to_feel() {
     let scene = format!(
@@ -47,8 +47,8 @@ fn a_free_block_moves_as_what_it_is_told_to_feel() {
     assert!(moved > 1.0, "the fluid inside has no inertia: {moved} N");
 }
 
-/// Fluid that falls freely has no pressure, and a block that is driven along with it feels nothing; where its acceleration
-/// stands for a pressure gradient the block feels what the fluid in its place would.
+/// Fluid in free fall has no pressure, and a block that is driven along with it has no load; if its acceleration stands for
+/// a pressure gradient, the load is that on the displaced fluid.
 #[test]
 fn a_block_that_is_driven_along_with_the_fluid_feels_what_fluid_would() {
     let weight = DENSITY * 2.4 * 2.1 * 1.9 * 0.004;

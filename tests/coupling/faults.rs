@@ -1,4 +1,4 @@
-//! What cannot be is said, and why.
+//! Errors of coupled scenes and their messages.
 
 use crate::fixture::{World, fluid, material};
 use glam::{DQuat, DVec3};
@@ -67,7 +67,7 @@ fn poses_that_are_nowhere_are_refused_and_the_next_ones_are_not() {
         assert!(matches!(error, Error::NotFinite { .. }), "{error}");
         assert!(error.to_string().contains('1'), "{error}");
     }
-    // Finite, and beyond all cells that can be counted.
+    // Finite, but with cell indices beyond their range.
     for far in [1e12, -1e30, 1e300] {
         let error = place(&[good[0], at(DVec3::new(4.0, far, 4.0))])
             .0
@@ -89,15 +89,14 @@ fn a_lattice_without_a_solid_operator_takes_no_blocks() {
     assert!(error.to_string().contains("solid operator"), "{error}");
 }
 
-/// A device that holds the fluid, but not all of its cells as cells with blocks: the populations take every binding but
-/// one.
+/// A device that holds the fluid, but not the data of blocks in all of its cells: the populations take every binding but one.
 #[test]
 fn blocks_that_reach_more_cells_than_a_binding_holds_are_refused() {
     let cells = [64, 64, 48];
     let all = 4 * u64::from(cells.iter().product::<u32>());
     let limits = Rig::new().device.limits();
     let buffers = limits.max_storage_buffers_per_shader_stage.min(12);
-    // Five of them are for other fields. Nine numbers of a cell are more than the directions in a binding.
+    // Five of them are for other fields. Nine numbers per cell are more than the directions in one binding.
     let directions = 27_u64.div_ceil(u64::from(buffers - 5));
     assert!(directions < 9);
     let rig = Rig::with_limits(wgpu::Limits {
@@ -122,7 +121,7 @@ fn blocks_that_reach_more_cells_than_a_binding_holds_are_refused() {
         .unwrap();
 }
 
-/// The least that [`Needs`] names is enough.
+/// The limits in [`Needs`] are sufficient.
 #[test]
 fn a_device_with_what_a_scene_needs_runs_it() {
     let text = format!(
@@ -206,11 +205,11 @@ fn a_block_that_is_crushed_ends_the_run_where_it_was() {
     assert!(matches!(error, Error::DeepOverlap { .. }), "{error}");
     assert!(error.to_string().contains("nut"), "{error}");
     let stopped = [world.centre(0), world.centre(1)];
-    // It says so again, and moves nothing.
+    // A second attempt returns the same error and moves nothing.
     let error = world.try_advance(1).unwrap_err();
     assert!(matches!(error, Error::DeepOverlap { .. }), "{error}");
     assert_eq!([world.centre(0), world.centre(1)], stopped);
-    // And it can go on from before.
+    // The state from before can be continued.
     world.sim.restore(&saved).unwrap();
     world.advance(10);
 }

@@ -1,4 +1,4 @@
-//! A scene that runs, and what is measured of it.
+//! A running coupled scene, and measurements of it.
 
 use glam::DVec3;
 use kit::{Rig, scene::for_kernels};
@@ -12,7 +12,7 @@ use riprap::{
 
 /// Length of a step, s.
 pub const STEP: f64 = 0.25;
-/// Of the fluid, kg/m³.
+/// Density of the fluid, kg/m³.
 pub const DENSITY: f64 = 1000.0;
 
 /// Rock of this density (kg/m³) that is soft enough for long sub-steps.
@@ -22,7 +22,7 @@ pub fn material(name: &str, density: f64) -> String {
     )
 }
 
-/// A box of fluid of 1000 kg/m³ without gravity, cells of 0.5 m and steps of 0.25 s, so that no unit is one.
+/// A box of fluid of 1000 kg/m³ without gravity, with cells of 0.5 m and steps of 0.25 s, so that no conversion factor is one.
 pub fn fluid(cells: [u32; 3], nu: f64) -> String {
     let size = cells.map(|n| 0.5 * f64::from(n));
     // ν Δx²/Δt = ν 0.5²/0.25.
@@ -37,7 +37,7 @@ pub fn accelerated_fluid(cells: [u32; 3], nu: f64, acceleration: [f64; 3]) -> St
     fluid(cells, nu).replace("viscosity", &accelerated)
 }
 
-/// A block on the floor in water that stands still, of the name "stone", which falls asleep; `more` is added to the scene.
+/// A block called "stone" on the floor in water at rest, which falls asleep; `more` is added to the scene.
 pub fn resting(more: &str) -> String {
     format!(
         r#"{}{}damping = 0.7
@@ -84,7 +84,7 @@ impl World {
         }
     }
 
-    /// The same scene for these kernels.
+    /// The scene with these kernels.
     pub fn with(text: &str, kernels: Kernels) -> Self {
         let scene = kit::scene::read(text).unwrap();
         Self::of(&for_kernels(&scene, kernels)).unwrap()
@@ -108,7 +108,7 @@ impl World {
         self.rig.wait(self.sim.advance(steps))
     }
 
-    /// Momentum of what is in the cells, kg m/s, and its mass, kg.
+    /// Momentum of the fluid in all cells, kg m/s, and its mass, kg.
     pub fn fluid(&mut self) -> (DVec3, f64) {
         let totals = self.rig.wait(self.sim.totals()).unwrap();
         (DVec3::from(totals.momentum), totals.mass)

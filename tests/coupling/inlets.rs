@@ -1,15 +1,15 @@
-//! Blocks that lie where fluid enters: said before the run, and when it ends.
+//! Blocks at inlets: reported before the run and at its end.
 
 use crate::fixture::{World, fluid, material};
 use kit::assert_contains;
 use riprap::{Error, scene::Warning};
 
-/// A duct with a box of 2 m at `x`, and this velocity at its inlet.
+/// A duct with a box of 2 m at `x`, and this inlet velocity.
 fn duct(velocity: &str, x: f64, motion: &str) -> World {
     World::new(&duct_scene(velocity, x, motion))
 }
 
-/// Its scene.
+/// The scene of [`duct`].
 pub fn duct_scene(velocity: &str, x: f64, motion: &str) -> String {
     format!(
         r#"{}{}
@@ -65,7 +65,7 @@ fn a_block_that_comes_to_an_inlet_is_named_when_the_flow_diverges() {
 
 #[test]
 fn nothing_is_said_where_nothing_enters() {
-    // Nothing enters below 3 m, the top of the box; a cell's centre is at 3.25 m.
+    // Nothing enters below 3 m, the top of the box; the next cell centre is at 3.25 m.
     let mut world = duct("\"0.1*max(0, y - 3)\"", 0.6, FIXED);
     assert_eq!(warnings(&world), Vec::<&Warning>::new());
     world.advance(60);
@@ -74,7 +74,7 @@ fn nothing_is_said_where_nothing_enters() {
 
 #[test]
 fn what_enters_later_counts() {
-    // Runs of one step are long enough for what grows with the time.
+    // Runs of one step are long enough for velocities that grow with time.
     let world = duct("\"0.1*t\"", 0.6, FIXED);
     assert_eq!(warnings(&world).len(), 1);
 }

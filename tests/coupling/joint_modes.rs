@@ -1,14 +1,15 @@
-//! The oscillations of blocks in closed joints, by a model in one dimension, in f64: two blocks in a row that repeats, between joints of one
-//! cell, in fluid with τ = 1/2. What docs/src/theory/solids.md says of them, and that what closed joints have stops them.
+//! Oscillations of blocks in closed joints, in a one-dimensional f64 model: two blocks in a periodic row, between joints of one
+//! cell, in fluid with τ = 1/2. Checks the growth rates in docs/src/theory/solids.md, and that the weights of closed joints damp
+//! the modes.
 
 /// Density of the blocks over that of the fluid.
 const DENSITY: f64 = 2.65;
-/// Weights of the populations that move by 0, 1 and −1 across the joints, those of all other directions added.
+/// Weights of the populations that move by 0, 1 and −1 across the joints, summed over all other directions.
 const W: [f64; 3] = [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0];
 /// Rows of full cells at each face that reflect; deeper ones are at equilibrium with the block.
 const REFLECT: usize = 2;
 
-/// The momentum that the model follows.
+/// Direction of the modelled momentum.
 #[derive(Clone, Copy, PartialEq)]
 enum Along {
     /// Across the joints, with the density.
@@ -17,12 +18,12 @@ enum Along {
     Tangent,
 }
 
-/// What acts in a joint.
+/// Parameters of a joint.
 #[derive(Clone, Copy)]
 struct Joint {
     /// B of the momentum and of the other moments.
     weights: [f64; 2],
-    /// Steps by which the load is known to be late, and is completed.
+    /// Delay of the load in steps, for which it is corrected.
     delay: f64,
 }
 
@@ -34,7 +35,7 @@ const CLOSED: Joint = Joint {
 struct Row {
     along: Along,
     joint: Joint,
-    /// Cells of a block that are full, without its halves of two joints.
+    /// Full cells of a block, without its halves of two joints.
     full: usize,
     populations: Vec<[f64; 3]>,
     velocity: [f64; 2],
@@ -46,7 +47,7 @@ struct Row {
 
 impl Row {
     fn new(along: Along, joint: Joint, full: usize) -> Self {
-        // Any start that has a part of all modes.
+        // Any start that contains all modes.
         let start = |n: usize, q: usize| ((3 * n + q) as f64 * 1.7).sin();
         let populations = (0..2 * (full + 1)).map(|n| [0, 1, 2].map(|q| start(n, q)));
         Self {
@@ -95,7 +96,7 @@ impl Row {
         (self.before, self.loads) = (old, loads);
     }
 
-    /// Between two blocks there are two joints, each with ρ c² t/Δx; implicitly.
+    /// Corrects the loads implicitly for their delay t: two joints between the blocks, each with ρ c² t/Δx.
     fn complete_load(&mut self, mass: f64) {
         if self.along == Along::Normal && self.joint.delay > 0.0 {
             let resistance = 2.0 * self.joint.delay / 3.0;
@@ -109,7 +110,7 @@ impl Row {
         }
     }
 
-    /// Collided with the solid, of the velocity `u`; `deep` at its equilibrium.
+    /// Populations after collision with a solid of velocity `u`; at its equilibrium if `deep`.
     fn in_block(&self, f: &[f64; 3], u: f64, deep: bool) -> [f64; 3] {
         let [rest, up, down] = *f;
         match (self.along, deep) {
@@ -127,21 +128,21 @@ impl Row {
         }
     }
 
-    /// Collided in a joint whose solid has the velocity `u`, and the force on it.
+    /// Populations after collision in a joint whose solid has the velocity `u`, and the force on the solid.
     fn in_joint(&self, f: &[f64; 3], u: f64) -> ([f64; 3], f64) {
         let [momentum, others] = self.joint.weights;
         let change = 2.0 * momentum * (u - self.momentum(f));
         let [rest, up, down] = *f;
         let after = match self.along {
             Along::Normal => {
-                // A third of the normal stress is of the trace, which relaxes at 1.54; the rest changes its sign.
+                // A third of the normal stress belongs to the trace, which relaxes at 1.54; the rest changes its sign.
                 let (rho, j) = (rest + up + down, up - down + change);
                 let rate = (1.0 - others) * (1.54 + 2.0 * 2.0) / 3.0;
                 let stress = up + down + rate * (rho / 3.0 - up - down);
                 [rho - stress, 0.5 * (stress + j), 0.5 * (stress - j)]
             }
             Along::Tangent => {
-                // Third moments are gone, the shear stress changes its sign.
+                // Third moments vanish; the shear stress changes its sign.
                 let j = rest + up + down + change;
                 let stress = (1.0 - 2.0 * (1.0 - others)) * (up - down);
                 [W[0] * j, W[1] * j + 0.5 * stress, W[2] * j - 0.5 * stress]
@@ -157,7 +158,7 @@ impl Row {
         }
     }
 
-    /// Growth a step of the fastest mode, and half its period in steps where the velocity of a block oscillates.
+    /// Growth per step of the fastest mode, and half its period in steps if the velocity of a block oscillates.
     fn growth(&mut self) -> (f64, f64) {
         let mut rates = Vec::new();
         let mut turns = 0;

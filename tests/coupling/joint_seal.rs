@@ -1,4 +1,4 @@
-//! Closed joints: the load of a block there is the pressure at the rim, once the fluid of the cells inside has seeped out.
+//! Closed joints: their load on a block is the pressure at the rim, once the initial pressure inside has equalised.
 
 use crate::fixture::{DENSITY, WALLS, World, accelerated_fluid, fluid, material};
 use glam::DVec3;
@@ -15,7 +15,7 @@ const SAFETY: &str = r#"
     block = "stone"
     safety = true
 "#;
-/// Along the grid of half a metre.
+/// Size of the block along the grid of half a metre, m.
 const SIZE: DVec3 = DVec3::new(8.0, 6.0, 5.0);
 
 /// The block on the bottom of the tank.
@@ -32,8 +32,8 @@ fn stone(size: DVec3, motion: &str) -> String {
     )
 }
 
-/// A closed tank of 12 m an edge with water at rest under `acceleration`, a block on its bottom, and inside of SIZE
-/// another pressure, higher by `stale` (Pa).
+/// A closed tank of 12 m along an edge with water at rest under `acceleration`, a block on its bottom, and inside of SIZE an
+/// initial pressure that is higher by `stale` (Pa).
 fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64, block: &str) -> World {
     let [x, y, z] = acceleration.map(|a| DENSITY * a);
     // 1 in the box, 0 outside it.
@@ -54,8 +54,8 @@ fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64, block: &str) -> W
     world
 }
 
-/// Archimedes' push along any gravity, also where pressure is counted from the hydrostatic one, to the rounding of
-/// pressures over the head, in the load on the block too, whatever was inside at the start.
+/// Buoyancy under any gravity, also with pressure relative to the hydrostatic one, up to the rounding of pressures over the
+/// head, in the load on the block too, for any initial pressure inside.
 #[test]
 fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
     let heavy = [0.0, 0.0, -0.01];
@@ -64,7 +64,7 @@ fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
     for (acceleration, gravity) in [(heavy, heavy), (oblique, oblique), ([0.0; 3], heavy)] {
         for stale in [0.0, 40.0] {
             let mut world = tank(acceleration, gravity, stale, &stone(SIZE, "fixed"));
-            // Until what was inside has seeped out.
+            // Until the initial pressure inside has equalised.
             world.advance(if stale > 0.0 { 800 } else { 0 });
             let coupled = world.sim.coupled().unwrap();
             let [force, torque] = coupled.wrench_with_uplift(0).unwrap();
@@ -80,8 +80,8 @@ fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
     }
 }
 
-/// Sides whose rows of cells do not fill them, and sides of one row, which know nothing of slopes: pressures are counted
-/// from the surface, so that those at the bottom are all far from 0.
+/// Sides that rows of cells do not fill, and sides of one row, which give no slopes: pressures are relative to the surface,
+/// so that those at the bottom are all far from 0.
 #[test]
 fn the_base_of_a_block_across_the_grid_carries_the_pressure_of_its_rim() {
     let heavy = [0.0, 0.0, -0.01];
@@ -96,7 +96,7 @@ fn the_base_of_a_block_across_the_grid_carries_the_pressure_of_its_rim() {
         let coupled = world.sim.coupled().unwrap();
         let [force, torque] = coupled.wrench_with_uplift(0).unwrap();
         let exact = DENSITY * 0.01 * size.element_product();
-        // The head over the block, times its base.
+        // The head above the block, times its base.
         let head = DENSITY * 0.01 * 12.0 * size.x * size.y;
         println!("{size}: {force}, {torque}; {exact}, {head}");
         assert!((force - DVec3::Z * exact).length() < 1e-5 * head);
@@ -104,7 +104,7 @@ fn the_base_of_a_block_across_the_grid_carries_the_pressure_of_its_rim() {
     }
 }
 
-/// Two boxes that make an L, whose seam is neither wet nor a joint.
+/// Two boxes that form an L, whose seam is neither wet nor a joint.
 #[test]
 fn seams_of_a_compound_carry_nothing() {
     let heavy = [0.0, 0.0, -0.01];
@@ -124,11 +124,11 @@ fn seams_of_a_compound_carry_nothing() {
     let exact = DVec3::Z * DENSITY * 0.01 * volume;
     println!("{force}, {torque}; {exact}");
     assert!((force - exact).length() < 1e-5 * exact.length());
-    // Archimedes' push goes through its centroid.
+    // Buoyancy acts through the centroid.
     assert!(torque.length() < 1e-5 * exact.length() * 6.0, "{torque}");
 }
 
-/// A pressure inside that would lift it at 0.0028 m/s², held until that has seeped out.
+/// A pressure inside that would lift the block at 0.0028 m/s²; the block is held until it has equalised.
 #[test]
 fn what_was_inside_at_the_start_moves_no_block() {
     let heavy = [0.0, 0.0, -0.01];
@@ -136,11 +136,11 @@ fn what_was_inside_at_the_start_moves_no_block() {
     let world = tank(heavy, heavy, 120.0, &held);
     let centre = world.sim.coupled().unwrap().blocks().poses()[0].centre;
     let moved = (centre - DVec3::new(6.0, 6.0, 2.5)).length();
-    // It sinks in by 0.8 mm for its weight, and twice that at first.
+    // It sinks in by 0.8 mm due to its weight, and twice that at first.
     assert!(moved < 2e-3, "{moved} m");
 }
 
-/// A joint that closes on the way: what is squeezed as a block comes down on another one does not stay in it.
+/// A joint that closes during the run: the pressure of the squeezed water does not remain in it.
 #[test]
 fn a_block_that_lands_has_the_push_of_archimedes() {
     let heavy = [0.0, 0.0, -0.01];
@@ -211,12 +211,12 @@ pub fn dam(high: f64) -> String {
     )
 }
 
-/// Each joint has the line between its own ends, whatever is wet elsewhere.
+/// The pressure in each joint is linear between its own ends, whatever is wet elsewhere.
 #[test]
 fn each_joint_has_the_pressure_of_its_own_rim() {
     let high = 100.0;
     let mut world = World::new(&dam(high));
-    // Later on water has seeped from one side to the other.
+    // By then water has seeped from one side to the other.
     world.advance(200);
     let coupled = world.sim.coupled().unwrap();
     let (faces, joints) = (coupled.face_loads(0), coupled.joint_loads(0));
@@ -229,7 +229,7 @@ fn each_joint_has_the_pressure_of_its_own_rim() {
     let [up, down] = [level(-DVec3::X), level(DVec3::X)];
     assert!(up - down > 0.4 * high, "{up} {down}");
     let mean = 0.5 * (up + down);
-    // The rim of the joint on the crest is the crest's own wet part.
+    // The rim of the joint on the crest is the wet part of the crest.
     for (normal, mean) in [
         (-DVec3::Z, mean),
         (DVec3::Z, 0.5 * (level(DVec3::Z) + down)),
@@ -242,14 +242,14 @@ fn each_joint_has_the_pressure_of_its_own_rim() {
             "{normal}: {found}, {mean}"
         );
     }
-    // ∫ p x dx about the middle of the base: a line from one side to the other.
+    // ∫ p x dx about the middle of the base, with p linear from one side to the other.
     let base = face(-DVec3::Z).1;
     let arm = base.moment.y / base.force.z;
     let exact = (up - down) / (3.0 * mean);
     assert_relative(arm, exact, 0.03);
 }
 
-/// In the open there is nothing to say about joints.
+/// A block in open water has no joints.
 #[test]
 fn a_block_without_closed_joints_has_none() {
     let text = format!(

@@ -1,6 +1,5 @@
-//! Blocks a few cells thick in water of hardly any viscosity come to rest in their joints, closed or thinner than a cell. Full
-//! cells throw back what leaves a joint, and loads come late: what nothing damps grows, until the water in the joint is faster
-//! than sound.
+//! Blocks a few cells thick in water of very low viscosity come to rest in their joints, closed or thinner than a cell. Full
+//! cells reflect what leaves a joint, and loads are late: undamped modes grow until the water in the joint is supersonic.
 
 use crate::fixture::World;
 
@@ -24,14 +23,14 @@ fn block(size: [f64; 3], position: [f64; 3], velocity: [f64; 3]) -> String {
     )
 }
 
-/// Speed of the fastest of so many blocks, m/s.
+/// Speed of the fastest of `blocks` blocks, m/s.
 fn fastest(world: &World, blocks: usize) -> f64 {
     let speeds = (0..blocks).map(|n| world.velocity(n).length());
     speeds.fold(0.0, f64::max)
 }
 
-/// Both faces lie in one row of cells. Loads that come late and water between full cells, which nothing but the joint damps, each
-/// would drive the plates apart at 10 m/s.
+/// Both faces lie in one row of cells. Late loads, or water between full cells that only the joint damps, would each drive
+/// the plates apart at 10 m/s.
 #[test]
 fn plates_on_both_sides_of_a_thin_gap_come_to_rest() {
     let (gap, thickness) = (0.015, 0.1);
@@ -50,8 +49,8 @@ fn plates_on_both_sides_of_a_thin_gap_come_to_rest() {
     assert!(speed < 1e-3, "{speed}");
 }
 
-/// Speed of the fastest of nine cubes of four cells on a floor, each kicked in another direction, m/s. The side of the first lies at
-/// `side` (m).
+/// Speed of the fastest of nine cubes of four cells on a floor, each with another initial velocity, m/s. The side of the first
+/// lies at `side` (m).
 fn jointed_slab(side: f64, coupling: &str) -> f64 {
     let mut scene = format!(
         r#"
@@ -79,7 +78,7 @@ fn blocks_of_a_jointed_slab_come_to_rest() {
     assert!(jointed_slab(0.225, "") < 1e-3);
 }
 
-/// As narrow as the joints of this lattice can be: in joints of two rows of cells, and in cells that two blocks share.
+/// The narrowest joints that this lattice allows: in joints of two rows of cells, and in cells that two blocks share.
 #[test]
 fn blocks_with_the_narrowest_joints_come_to_rest() {
     for side in [0.2, 0.225] {

@@ -1,4 +1,4 @@
-//! Blocks and fluid together: what must be conserved, repeated, left alone and refused.
+//! Blocks and fluid together: conservation, reproducibility, skipped work and refusals.
 
 mod conservation;
 mod density;

@@ -1,10 +1,10 @@
-//! Blocks that meet across a periodic face, and films of fluid between blocks.
+//! Blocks that meet across a periodic face, and lubrication films between blocks.
 
 use crate::fixture::{World, fluid, material};
 use glam::DVec3;
 use kit::assert_contains;
 
-/// Two boxes that go towards each other along x, 16 cells and 8 m long, the middle of the gap at `x` (m).
+/// Two boxes that approach each other along x, 16 cells and 8 m long, with the middle of the gap at `x` (m).
 pub fn pair(x: f64, lubrication: bool) -> String {
     let at = |offset: f64| (x + offset).rem_euclid(8.0);
     format!(
@@ -51,7 +51,7 @@ fn blocks_meet_across_a_periodic_face_as_in_the_middle() {
         }
     }
     assert!(touched);
-    // The gap of half a metre would be gone after 10 steps.
+    // Without a film, the gap of half a metre would close after 10 steps.
     let gap = middle.centre(1).x - middle.centre(0).x - 2.0;
     assert!(gap > -1e-3, "{gap}");
 }
@@ -64,7 +64,7 @@ fn films_slow_blocks_down_and_keep_momentum() {
         world.advance(11);
         let (of_fluid, _) = world.fluid();
         let whole = of_fluid + world.momentum(0) + world.momentum(1);
-        // What a step's load still has to give to the blocks is not in it.
+        // It does not contain the part of a step's load that the blocks have not yet received.
         assert!(whole.length() < 2e-2 * scale, "{whole}");
     }
     let closing = |world: &World| world.velocity(0).x - world.velocity(1).x;

@@ -9,7 +9,7 @@ const DRIVEN: &str = r#"
     spin = [0.02, 0.03, 0.05]
 "#;
 
-/// A driven box of 3 × 2 × 2.5 m at a place in a periodic box.
+/// A driven box of 3 × 2 × 2.5 m at a position in a periodic box.
 fn periodic(position: [f64; 3]) -> World {
     World::new(&format!(
         r#"{}{}
@@ -36,7 +36,7 @@ fn borders_that_are_periodic_are_none() {
         middle.advance(1);
         border.advance(1);
         let (a, b) = (middle.cell_load(0).flow, border.cell_load(0).flow);
-        // Sums in another order.
+        // The sums are in another order.
         let off = (a.force - b.force).length() / a.force.length().max(1.0);
         assert!(off < 1e-4, "step {step}: {} and {}", a.force, b.force);
         let off = (a.torque() - b.torque()).length() / a.torque().length().max(1.0);
@@ -45,7 +45,7 @@ fn borders_that_are_periodic_are_none() {
 }
 
 /// Walls, an inlet and an outflow; driven blocks that overlap each other and a wall, one that is much longer than the
-/// domain, one that spins so that its corners go at Mach 0.3, and one that leaves through the outflow.
+/// domain, one whose spin moves its corners at Mach 0.3, and one that leaves through the outflow.
 #[test]
 fn blocks_anywhere_leave_the_flow_whole() {
     let mut world = World::new(&format!(
@@ -114,16 +114,16 @@ fn blocks_anywhere_leave_the_flow_whole() {
             );
         }
     }
-    // In 30 s it has gone 7.5 m.
+    // In 30 s it has moved 7.5 m.
     assert!(world.centre(1).x > 18.0);
     assert_eq!(world.cell_load(1).flow, riprap::geometry::Load::default());
-    // Only what lies in the domain counts of the slab.
+    // Only the part of the slab inside the domain counts.
     let slab = world.cell_load(0).flow;
     let inside = slab.entrained + slab.missing;
     assert_near(inside, 11.0 * 0.9 * 5.0, 0.1);
 }
 
-/// A free block that flies out of the domain goes on with the velocity that it has.
+/// A free block that flies out of the domain continues with its velocity.
 #[test]
 fn blocks_that_have_left_feel_nothing() {
     let mut world = World::new(&format!(
@@ -155,7 +155,7 @@ fn blocks_that_have_left_feel_nothing() {
     assert_eq!(world.sim.coupled().unwrap().solid_cells().tiles(), 0);
 }
 
-/// Smooth ones of a mesh of their own: nearly each cell is cut by dozens of faces, and work for thousands of turns.
+/// Smooth pebbles with a mesh of many faces: dozens of faces cut nearly every cell, which takes thousands of iterations.
 #[test]
 fn a_pebble_of_many_faces_displaces_its_volume() {
     let rest =

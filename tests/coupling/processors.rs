@@ -1,5 +1,5 @@
-//! Coupled scenes as a GPU takes them, one cell an invocation, sums by workgroups and pairs found on the device, and as a CPU
-//! does: the same within the rounding of sums in another order.
+//! Coupled scenes with the kernels of a GPU (one cell per invocation, sums by workgroups, pairs found on the device) and with
+//! those of a CPU give the same results within the rounding of sums in another order.
 
 use crate::{
     fixture::World, inlets::duct_scene, joint_seal::dam, periodic_images::pair, reproducibility,
@@ -10,8 +10,8 @@ use riprap::{
     scene::{Field, Kernels},
 };
 
-/// Largest difference, as a part of what it is compared with: a step rounds to 1e-7 of that, and none of these scenes takes
-/// more than a hundred steps.
+/// Largest relative difference: a step rounds to 1e-7 of the compared values, and none of these scenes takes more than a
+/// hundred steps.
 const LIMIT: f64 = 1e-5;
 
 type Vectors = Vec<DVec3>;
@@ -21,7 +21,7 @@ fn largest(all: impl Iterator<Item = DVec3>) -> f64 {
     all.map(DVec3::length).fold(0.0, f64::max)
 }
 
-/// Fails unless the two differ by less than the limit of their largest value or of `scale`.
+/// Fails unless the two differ by at most the limit times their largest value or `scale`.
 #[track_caller]
 fn assert_alike(what: &str, scale: f64, [cpu, gpu]: [Vectors; 2]) {
     assert_eq!(cpu.len(), gpu.len(), "{what}");
@@ -32,8 +32,8 @@ fn assert_alike(what: &str, scale: f64, [cpu, gpu]: [Vectors; 2]) {
     assert!(off <= LIMIT * size, "{what}: {off:e} of {size:e}");
 }
 
-/// Takes as many steps of a scene, in which blocks or fluid began with `speed` (m/s), by both, and compares where its blocks
-/// are and how fast, the loads on them, their faces and their joints, and the flow.
+/// Takes `steps` steps of a scene, in which blocks or fluid start with `speed` (m/s), with both, and compares positions and
+/// velocities of its blocks, the loads on them, their faces and their joints, and the flow.
 fn check(text: &str, steps: u64, speed: f64) {
     let mut worlds = [Kernels::Cpu, Kernels::Gpu].map(|kernels| World::with(text, kernels));
     let lanes = |world: &World| world.sim.lattice().unwrap().setup().lanes;
@@ -109,8 +109,8 @@ fn a_dam_with_a_gate_on_closed_joints() {
     check(&dam(100.0), 60, 0.0);
 }
 
-/// They meet after some ten steps, and the film between them holds them apart. Long after, moments at one step differ
-/// by more: 6e-5 after 60.
+/// They meet after some ten steps, and the film between them keeps them apart. Long after that, moments at one step differ
+/// more: by 6e-5 after 60 steps.
 #[test]
 fn two_blocks_with_a_film_that_meet_across_a_periodic_face() {
     check(&pair(8.0, true), 24, 0.1);

@@ -1,4 +1,4 @@
-//! The same bits twice, and from wherever a run was cut.
+//! Bitwise equal results of two runs, and of runs restarted anywhere.
 
 use crate::fixture::{World, fluid, material};
 use riprap::{
@@ -6,7 +6,7 @@ use riprap::{
     simulation::checkpoint::{Checkpoint, FluidState, LatticeState},
 };
 
-/// A free block that leaves its tiles, a driven one, one that sleeps on the floor and a fixed one.
+/// A free block that leaves its tiles, a driven one, one that is asleep on the floor and a fixed one.
 pub fn scene(interval: u32, average: bool) -> String {
     format!(
         r#"{}{}{}damping = 0.7
@@ -48,13 +48,13 @@ pub fn scene(interval: u32, average: bool) -> String {
         motion = "fixed""#,
         fluid([14, 14, 14], 0.02),
         material("rock", 2000.0),
-        // So heavy that the flow does not wake it.
+        // Too heavy for the flow to wake it.
         material("heavy", 20_000.0)
     )
 }
 
 impl World {
-    /// Everything, as it is written to files.
+    /// The whole state as written to files.
     fn bits(&mut self) -> Vec<u8> {
         let checkpoint = self.rig.wait(self.sim.checkpoint()).unwrap();
         let file = std::env::temp_dir().join(format!("riprap-coupling-{}", std::process::id()));
@@ -77,7 +77,7 @@ impl World {
 fn runs_repeat_and_go_on_from_every_cut() {
     for (interval, average) in [(1, false), (3, true)] {
         let text = scene(interval, average);
-        // Before and after a reading, odd and even, awake and asleep.
+        // Before and after a readback, odd and even, awake and asleep.
         let cuts = [1, 5, 13, 24, 36, 47];
         let mut whole = World::new(&text);
         let (mut saved, mut slept) = (Vec::new(), 0);
@@ -97,7 +97,7 @@ fn runs_repeat_and_go_on_from_every_cut() {
         let mut other = World::new(&text);
         other.advance(60);
         assert!(other.bits() == expected, "a second time, every {interval}");
-        // Into a run that has gone on, with loads on their way.
+        // Into a run that has continued, with loads in transit.
         for (cut, bits) in cuts.iter().zip(&saved) {
             other.load(bits);
             assert!(
@@ -114,7 +114,7 @@ fn runs_repeat_and_go_on_from_every_cut() {
     }
 }
 
-/// What solids did in the last step is in the velocities of their cells and in no population.
+/// The effect of solids in the last step is in the velocities of their cells and in no population.
 #[test]
 fn a_restart_shows_what_the_run_showed() {
     let fields = [
@@ -139,7 +139,7 @@ fn a_restart_shows_what_the_run_showed() {
         let mut fresh = World::new(&text);
         fresh.load(&bits);
         assert!(shown(&mut fresh) == expected, "a new run, cut at {cut}");
-        // From the state that it has not yet gone on from.
+        // From a state that has not been continued yet.
         let again = fresh.bits();
         assert!(again == bits, "written again, cut at {cut}");
         let mut other = World::new(&text);

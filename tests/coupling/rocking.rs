@@ -1,14 +1,14 @@
-//! A light block that is pushed until its base lifts a little off what it stands on, in still water: what is in a gap of a few
+//! A light block in still water that is pushed until its base lifts slightly off its support: the fluid in a gap of a few
 //! thousandths of a cell must not shake it.
 
 use crate::fixture::{WALLS, World};
 
-/// A slab of 8 × 8 × 5 cells on a floor, or on a block so high, pushed at half its height with three quarters of what topples
-/// it; a cell is 1 m, a step 1 s and the fluid has 1 kg/m³.
+/// A slab of 8 × 8 × 5 cells on a floor, or on a block of height `bed`, pushed at half its height with three quarters of the
+/// toppling force; a cell is 1 m, a step 1 s and the fluid has 1 kg/m³.
 fn slab(bed: f64) -> World {
     const HEIGHT: f64 = 5.0;
     const WIDTH: f64 = 8.0;
-    // Weight under water over mass, times the slope that topples it.
+    // Submerged weight over mass, times the slope at which the slab topples.
     let push = 0.75 * 0.5 * 1e-4 * WIDTH / HEIGHT;
     let bed_block = match bed > 0.0 {
         true => format!(
@@ -36,8 +36,8 @@ fn slab(bed: f64) -> World {
     ))
 }
 
-/// Cells that are nearly full reflect what they hold: a spring that is a step late. Its force grew to forty times the weight
-/// under water in 1700 steps.
+/// Nearly full cells that reflect their populations act as a spring that is a step late; its force grew to forty times the
+/// submerged weight in 1700 steps.
 #[test]
 fn a_block_that_lifts_off_its_bed_comes_to_rest() {
     const WEIGHT: f64 = 8.0 * 8.0 * 5.0 * 1e-4;

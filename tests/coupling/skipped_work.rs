@@ -1,4 +1,4 @@
-//! Work that a step does not need is left out.
+//! Steps skip work that they do not need.
 
 use crate::fixture::{World, fluid, material, resting};
 use kit::assert_relative;
@@ -8,7 +8,7 @@ fn exchanges(world: &World) -> Exchanges {
     world.sim.coupled().unwrap().exchanges()
 }
 
-/// A block on the floor in water that stands still, and a fixed one beside it.
+/// A block on the floor in water at rest, and a fixed one next to it.
 #[test]
 fn blocks_that_rest_cost_a_look_now_and_then() {
     let mut world = World::new(&resting(
@@ -35,7 +35,7 @@ fn blocks_that_rest_cost_a_look_now_and_then() {
     assert_eq!(after.readings, before.readings + 10);
     assert_eq!(after.cells, before.cells);
 
-    // The same from a restart between two looks.
+    // The same after a restart between two readbacks.
     world.advance(5);
     let saved = world.rig.wait(world.sim.checkpoint()).unwrap();
     let run = |world: &mut World| {
@@ -81,7 +81,7 @@ fn fixed_blocks_are_read_where_somebody_asks() {
     assert!(world.cell_load(0).flow.force.x > 0.0);
 }
 
-/// Poses that stand still for four steps move the drag by as little as the block moves meanwhile.
+/// Keeping poses constant for four steps changes the drag as little as the block moves in that time.
 #[test]
 fn rare_exchanges_settle_a_block_like_frequent_ones() {
     let fall = |interval: u32| {

@@ -1,12 +1,12 @@
-//! Blocks that slide on what they lie on, under water: nothing but friction holds them.
+//! Blocks that slide on their support under water: only friction holds them.
 
 use crate::fixture::{DENSITY, WALLS, World, fluid};
 use glam::DVec3;
 
-/// Of the block, m: 8 × 6 × 5 cells.
+/// Size of the block, m: 8 × 6 × 5 cells.
 const SIZE: DVec3 = DVec3::new(4.0, 3.0, 2.5);
 
-/// A closed tank of water at rest, with a bed of this height (m) unless that is 0, and on it a stone.
+/// A closed tank of water at rest, with a bed of this height (m) unless it is 0, and a stone on it.
 fn tank(bed: f64, gravity: [f64; 3], friction: f64, stone: &str) -> World {
     let bed_block = match bed > 0.0 {
         true => format!(
@@ -42,12 +42,12 @@ fn tank(bed: f64, gravity: [f64; 3], friction: f64, stone: &str) -> World {
     ))
 }
 
-/// Full cells that reflect what they hold and add the momentum of their solid tie a block to what it slides on: a spring of
-/// 2 ρ c_s² / Δx for each area and length.
+/// Full cells that reflect their populations and add the momentum of their solid would tie a block to its support by a spring
+/// of 2 ρ c_s² / Δx per area and length.
 #[test]
 fn a_block_that_slides_is_not_tied_to_its_bed() {
     let spring = 2.0 / 3.0 * DENSITY * (0.5_f64 / 0.25).powi(2) * SIZE.x * SIZE.y / 0.5;
-    // A bed of its own along the grid and across it.
+    // On the floor, and on a bed along the grid and across it.
     for bed in [0.0, 1.0, 1.2] {
         let stone = r#"motion = "driven"
             velocity = ["0.02*max(0, sign(50 - t))", 0, 0]"#;
@@ -57,13 +57,13 @@ fn a_block_that_slides_is_not_tied_to_its_bed() {
         world.advance(500);
         let stands = world.cell_load(0).flow.force.x;
         println!("{bed}: {slides}, {stands} N; {spring} N/m");
-        // The drag of the stone, 0.02 m/s fast, and of swirls.
+        // The drag of the stone at 0.02 m/s, and of eddies.
         assert!(slides.abs() < 2e-3 * spring, "{slides}");
         assert!(stands.abs() < 2e-4 * spring, "{stands}");
     }
 }
 
-/// On a bed of 30°, whose friction is a degree more or less.
+/// On a bed of 30° whose friction angle is a degree more or less.
 #[test]
 fn submerged_blocks_slide_from_their_friction_on() {
     let gravity = [0.005, 0.0, -0.01 * 30_f64.to_radians().cos()];
@@ -75,7 +75,7 @@ fn submerged_blocks_slide_from_their_friction_on() {
             println!("{bed}, {friction}: {way} m");
             way
         });
-        // 10 N drive it, as much as the water takes at 5 mm/s: 1 m in 200 s.
+        // The net force is 10 N, the drag of the water at 5 mm/s: 1 m in 200 s.
         assert!((0.2..1.0).contains(&slips), "{slips}");
         assert!(holds.abs() < 0.02, "{holds}");
     }

@@ -16,13 +16,13 @@ pub fn area(points: &[DVec3]) -> DVec3 {
     pairs.map(|(a, b)| a.cross(*b)).sum::<DVec3>() / 2.0
 }
 
-/// Everything that a polyhedron promises about itself. Coordinates err by some ε of the radius; an on-plane
-/// verdict adds 1e-12 of the start box, itself up to four times as large.
+/// Asserts all invariants of a polyhedron. Coordinates have an error of some ε of the radius; an on-plane decision adds 1e-12
+/// of the start box, which is up to four times as large.
 pub fn assert_sound(p: &Polyhedron) {
     assert_sound_to(p, 1e-11 * p.radius());
 }
 
-/// The same for a block of which the coordinates err by up to `close` (m).
+/// The same for a block whose coordinates have an error of up to `close` (m).
 pub fn assert_sound_to(p: &Polyhedron, close: f64) {
     let (v, e, f) = (p.vertices().len(), p.edges().len(), p.faces().len());
     assert_eq!(v + f, e + 2, "Euler: {v} vertices, {e} edges, {f} faces");
@@ -42,7 +42,7 @@ pub fn assert_sound_to(p: &Polyhedron, close: f64) {
             }
         }
         let area = area(&points);
-        // Counter-clockwise seen from outside. The smaller the face, the less its direction is known.
+        // Counter-clockwise seen from outside. The smaller the face, the less accurate its direction.
         let tilt = area.cross(face.normal).length();
         assert!(area.dot(face.normal) > 0.0 && tilt < close * p.radius());
         closing += area;

@@ -1,4 +1,4 @@
-//! Blocks from meshes: convex, concave, and what is no solid.
+//! Blocks from meshes: convex, concave, and refused ones.
 
 use crate::measure::{assert_sound, difference};
 use glam::{DMat3, DQuat, DVec3};
@@ -8,7 +8,7 @@ use riprap::geometry::{Form, Polyhedron, Shape};
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// The loops of a polyhedron as triangles, moved.
+/// The faces of a polyhedron as triangles, transformed by `place`.
 fn triangles(p: &Polyhedron, place: impl Fn(DVec3) -> DVec3) -> Vec<[DVec3; 3]> {
     let at = |v: u32| place(p.vertices()[v as usize]);
     let fans = p.loops().iter().flat_map(|ring| {
@@ -100,7 +100,7 @@ fn a_convex_mesh_is_one_polyhedron_with_its_faces_merged() {
     let parts = convex(&shape);
     assert_eq!((parts.len(), parts[0].0.faces().len()), (1, 12));
     assert_sound(parts[0].0);
-    // f32 of 0.6 m: 4e-8 m, of a block of 0.55 m.
+    // f32 of 0.6 m has an error of 4e-8 m, in a block of 0.55 m.
     assert_relative(shape.volume(), solid.volume(), 1e-6);
     assert!(centre.distance(DVec3::new(0.3, 0.05, -0.02)) < 1e-7);
     assert!(difference(shape.inertia(), solid.inertia()) < 1e-6 * solid.inertia().x_axis.x);
@@ -139,7 +139,7 @@ fn an_l_is_two_boxes_with_exact_mass() {
     assert_near(shape.radius(), reach.length(), 1e-9);
 }
 
-/// Whether a point (m, from the centroid) is inside a part.
+/// Number of parts that a point (m, relative to the centroid) is inside of.
 fn inside(parts: &[(&Polyhedron, DVec3)], at: DVec3) -> usize {
     let holds = |(p, offset): &&(&Polyhedron, DVec3)| {
         p.faces().iter().all(|f| f.height(at - *offset) <= 0.0)
@@ -181,7 +181,7 @@ fn parts_of_a_turned_star_fill_it_once() {
     for (part, _) in &parts {
         assert_sound(part);
     }
-    // Every point of a grid is in as many parts as the star holds of it: one or none.
+    // Every point of a grid is in one part if the star contains it, else in none.
     let (mut held, mut total) = (0, 0);
     for n in 0..40_i32.pow(3) {
         let at = [n % 40, n / 40 % 40, n / 1600].map(|k| (f64::from(k) - 19.37) / 19.0 * 2.0);
@@ -252,7 +252,7 @@ fn torus(around: u32, tube: u32) -> TriangleMesh {
 #[test]
 fn a_solid_with_many_concave_edges_has_parts_near_it_and_exact_mass() {
     let (shape, centre) = Shape::from_mesh(&torus(60, 40)).unwrap();
-    // V = 2π² R r² less what the chords cut off: 1 − (2π/n)²/6 around each circle.
+    // V = 2π² R r² less the part that the chords cut off: 1 − (2π/n)²/6 around each circle.
     let smooth = 2.0 * std::f64::consts::PI.powi(2) * 0.16;
     let chords = |n: f64| 1.0 - (std::f64::consts::TAU / n).powi(2) / 6.0;
     let ratio = shape.volume() / (smooth * chords(60.0) * chords(40.0));
@@ -263,7 +263,7 @@ fn a_solid_with_many_concave_edges_has_parts_near_it_and_exact_mass() {
     assert_eq!(inside(&parts, DVec3::ZERO), 0);
     assert!(inside(&parts, DVec3::X) >= 1);
     let sum: f64 = parts.iter().map(|(p, _)| p.volume()).sum();
-    // Each part holds all of the solid in its cell, and stands out a little.
+    // Each part contains all of the solid in its cell, and protrudes slightly.
     assert!((0.0..0.01).contains(&(sum / shape.volume() - 1.0)));
 }
 
@@ -281,7 +281,7 @@ fn what_is_no_solid_is_refused() {
         [DVec3::ZERO, DVec3::Y, DVec3::X],
     ];
     let thin = triangles(&cube, |v| v * DVec3::new(1.0, 1.0, 5e-5));
-    // Two boxes, one inside out beside the other.
+    // Two boxes next to each other, one inside out.
     let beside = triangles(&cube, |v| v * 0.9 + DVec3::X * 5.0);
     let crossed = [all.clone(), turned(&beside)].concat();
     let mut told = String::new();

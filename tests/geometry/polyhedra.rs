@@ -14,7 +14,7 @@ fn direction() -> impl Strategy<Value = DVec3> {
     })
 }
 
-/// Tangent planes at random distances around a point, with a box around all so that they bound.
+/// Tangent planes at random distances around a point, with a box around them all so that the intersection is bounded.
 fn half_spaces() -> impl Strategy<Value = Vec<HalfSpace>> {
     let face =
         (direction(), 0.5..1.5_f64).prop_map(|(normal, distance)| HalfSpace { normal, distance });
@@ -46,7 +46,7 @@ proptest! {
         scale in -3.0..3.0_f64,
         far in 0.0..100.0_f64,
     ) {
-        // At some place, in some unit.
+        // At any position, in any unit.
         let unit = 10f64.powf(scale);
         let place = shift * (far * unit);
         let placed: Vec<HalfSpace> = faces
@@ -58,7 +58,7 @@ proptest! {
         let points: Vec<DVec3> = first.vertices().iter().map(|v| *v + centre).collect();
         let (second, again) = Polyhedron::from_vertices(&points).unwrap();
         assert_sound(&second);
-        // Faces smaller than 1e-9 of the size are flat to the hull, which no case here has by chance.
+        // Faces smaller than 1e-9 of the size count as flat in the hull; no case here has one by chance.
         prop_assert!(same_solid(&first, &second));
         prop_assert!(centre.distance(again) <= 1e-9 * unit);
         let (third, zero) = Polyhedron::from_half_spaces(second.faces()).unwrap();
@@ -118,7 +118,7 @@ fn redundant_and_coplanar_faces_go_and_the_others_keep_their_order() {
         .iter()
         .map(|f| face(f.normal, f.distance))
         .collect();
-    // Away from it, through an edge, through a corner, the same again, the same but for rounding.
+    // Away from it, through an edge, through a corner, a duplicate, a duplicate up to rounding.
     faces.insert(1, face(DVec3::new(1.0, 2.0, 0.0).normalize(), 3.0));
     faces.insert(
         2,
@@ -151,7 +151,7 @@ fn normals_of_any_length_give_the_same_block() {
 
 #[test]
 fn a_hull_with_many_vertices_on_a_sphere_is_right() {
-    // Fibonacci's lattice: 1000 points, all of them corners, so 1996 triangles.
+    // Fibonacci's lattice: 1000 points, all of them vertices, so 1996 triangles.
     let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
     let points: Vec<DVec3> = (0..1000)
         .map(|i| {

@@ -1,4 +1,4 @@
-//! What is no block is refused, and the message says which face and what to do.
+//! Input that bounds no block is refused with a message that names the face and a remedy.
 
 use glam::DVec3;
 use riprap::geometry::{Form, HalfSpace, Part, Polyhedron, RockMass, Shape, TriangleMesh};
@@ -7,7 +7,7 @@ fn cube() -> Vec<HalfSpace> {
     Polyhedron::cuboid(DVec3::ONE).unwrap().faces().to_vec()
 }
 
-/// What a thing is refused with, a line.
+/// The message of a refusal, in one line.
 fn refusal<T: std::fmt::Debug>(made: riprap::Result<T>) -> String {
     made.expect_err("it must be refused").to_string() + "\n"
 }
@@ -20,7 +20,7 @@ fn vertices(points: &[DVec3]) -> String {
     refusal(Polyhedron::from_vertices(points))
 }
 
-/// Unbounded ones, whatever the distances; empty ones; all planes through one point.
+/// Unbounded for any distances; empty; all planes through one point.
 #[test]
 fn half_spaces_that_bound_no_block() {
     let mut open = cube();
@@ -85,7 +85,7 @@ fn numbers_that_are_none() {
     insta::assert_snapshot!(told);
 }
 
-/// In a plane, in a point, and nearer to each other than numbers tell apart.
+/// In a plane, in a point, and nearer to each other than f64 resolves.
 #[test]
 fn points_that_span_no_block() {
     let plane = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::new(0.3, 0.3, 1e-8)];

@@ -1,4 +1,4 @@
-//! Rock masses: volumes add up, neighbours share planes, the joints are where geology puts them.
+//! Rock masses: volumes add up, neighbours share planes, and joints have the prescribed orientation and spacing.
 
 use crate::measure::{assert_sound, assert_sound_to};
 use glam::DVec3;
@@ -57,7 +57,7 @@ fn slope(spacing: f64, scatter: Scatter) -> RockMass {
 
 fn bits(plane: &HalfSpace) -> [u64; 4] {
     let [x, y, z] = plane.normal.to_array();
-    // Adding zero makes one zero of both.
+    // Adding zero makes −0 and 0 equal.
     [x, y, z, plane.distance].map(|v| (v + 0.0).to_bits())
 }
 
@@ -66,7 +66,7 @@ fn assert_adds_up(cut: &Fragments) {
     let slivers = cut.slivers.iter().map(|s| s.volume);
     let sum: f64 = blocks.chain(slivers).sum();
     let error = (sum - cut.volume).abs() / cut.volume;
-    // Rounding only: 1e-9 is what is asked.
+    // Only rounding: the requirement is 1e-9.
     assert!(error < 1e-12, "volumes miss by {error:e}");
 }
 
@@ -104,7 +104,7 @@ fn ten_thousand_blocks_add_up_and_are_sound() {
         for (world, face) in block.planes.iter().zip(block.shape.faces()) {
             assert_eq!(world.normal, face.normal);
             let distance = world.distance - world.normal.dot(block.centre);
-            // World coordinates are 500 m: ε of that.
+            // World coordinates are 500 m, which gives the error.
             assert_near(distance, face.distance, 1e-12);
         }
     }
@@ -117,7 +117,7 @@ fn neighbours_faces_coincide_to_the_bit() {
         .unwrap();
     assert!(cut.blocks.len() > 500);
     let size = cut.volume.cbrt();
-    // Area of faces by plane: what one side has, the other has too, unless it is the surface's.
+    // Area of faces by plane: both sides have the same area, except on the surface.
     let mut sides: BTreeMap<[u64; 4], f64> = BTreeMap::new();
     for block in &cut.blocks {
         for (plane, ring) in block.planes.iter().zip(block.shape.loops()) {
@@ -184,14 +184,14 @@ fn dip_and_dip_direction_are_the_geologists() {
     };
     let normal = y_up.normal(45.0, 90.0).unwrap();
     assert!(normal.distance(DVec3::new(sqrt, sqrt, 0.0)) < 1e-15);
-    // The wedge of Goodman & Shi's kind: planes 45/105 and 70/235 meet in a line that plunges 31.1965°.
+    // A wedge in the manner of Goodman & Shi: planes 45/105 and 70/235 intersect in a line that plunges 31.1965°.
     let a = z_up.normal(45.0, 105.0).unwrap();
     let b = z_up.normal(70.0, 235.0).unwrap();
     let line = a.cross(b).normalize();
     assert_near(line.z.abs().asin().to_degrees(), 31.1965, 5e-5);
 }
 
-/// Distances of joints of one level set in a tall column.
+/// Spacings of the joints of one horizontal set in a tall column.
 fn gaps(scatter: Scatter, seed: u64) -> Vec<f64> {
     let mass = RockMass {
         joints: vec![JointSet {
@@ -210,7 +210,7 @@ fn gaps(scatter: Scatter, seed: u64) -> Vec<f64> {
     let blocks = cut.blocks.iter().map(|b| (b.centre.z, b.shape.volume()));
     let mut all: Vec<(f64, f64)> = blocks.chain(slivers).collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // The first and the last end at the column.
+    // The first and the last gap end at the surface of the column.
     all[1..all.len() - 1].iter().map(|(_, v)| v / 1e4).collect()
 }
 
@@ -226,7 +226,7 @@ fn spacings_have_the_distribution_asked_for() {
     let (gaps, mean, deviation) = moments(Scatter::None);
     assert_eq!(gaps.len(), 1998);
     assert!((mean - 1.0).abs() < 1e-12 && deviation < 1e-9);
-    // Of 2000 gaps the mean errs by σ/45 and the deviation by about σ/63 (exponential σ/32): 4 of those.
+    // For 2000 gaps the mean has an error of σ/45 and the deviation of about σ/63 (exponential σ/32): 4 times that.
     let cases = [
         (Scatter::Uniform { range: 0.6 }, 0.6 / 3f64.sqrt(), 1.0),
         (Scatter::Normal { deviation: 0.2 }, 0.2, 1.0),
@@ -256,7 +256,7 @@ fn joints_that_end_cut_their_share() {
             length: 0.5,
         });
         let mut mass = RockMass::new(vec![cuboid(DVec3::ZERO, DVec3::splat(20.0))]);
-        // Columns first, and then level joints that each column meets or not.
+        // Columns first, and then horizontal joints that each column meets or not.
         mass.joints = vec![
             set(90.0, 0.0, 1.0),
             set(90.0, 90.0, 1.0),
@@ -278,7 +278,7 @@ fn joints_that_end_cut_their_share() {
 #[test]
 fn slivers_are_listed_and_can_be_kept() {
     let mut mass = RockMass::new(vec![cuboid(DVec3::ZERO, DVec3::ONE)]);
-    // Thin at the top: 0.01 m that contact resolves; at the side: 2e-5 m that it does not.
+    // Thin pieces: at the top 0.01 m, which contact resolves; at the side 2e-5 m, which it does not.
     mass.joints = vec![set(0.0, 0.0, 0.99), set(90.0, 90.0, 1.0 - 2e-5)];
     mass.smallest_thickness = 0.02;
     let cut = mass.cut().unwrap();
@@ -339,14 +339,14 @@ proptest! {
                 ..set(*dip, *direction, *spacing)
             })
             .collect();
-        // The first again, hardly turned: at worst by 1e-15, 1e-12, 1e-9 or nothing.
+        // The first again, rotated slightly: by at most 1e-15, 1e-12, 1e-9 or nothing.
         let mut again = mass.joints[0].clone();
         again.dip = (again.dip + 10f64.powi(5 * twin - 8) * f64::from(twin.signum())).clamp(0.0, 90.0);
         mass.joints.push(again);
         let cut = mass.cut().unwrap();
         assert_adds_up(&cut);
         for block in &cut.blocks {
-            // 1e-12 of the mass for each verdict.
+            // 1e-12 of the mass for each decision.
             assert_sound_to(&block.shape, 1e-11 * 4.0);
         }
     }

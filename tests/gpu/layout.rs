@@ -1,4 +1,4 @@
-//! What the host writes and reads lies as the kernels have it.
+//! Data that the host writes and reads have the layout of the kernels.
 
 use riprap::{
     Error,
@@ -114,7 +114,7 @@ fn structures_of_the_lattice() {
     let step = collide_stream(&setup, 1, BrickKind::All).link().unwrap();
     let guard = [("even", 0), ("odd", 4), ("even_cell", 8), ("odd_cell", 12)];
     check::<[u32; 4]>(&step.module, "Guard", &guard).unwrap();
-    // It reads eight numbers an invocation.
+    // It reads eight numbers per invocation.
     let names = [
         "excess",
         "momentum_x",
@@ -150,7 +150,7 @@ fn directions() {
     assert_eq!(there, C);
 }
 
-/// vec3 is aligned to 16 bytes in WGSL and to 4 on the host: the classic mistake is found.
+/// vec3 is aligned to 16 bytes in WGSL and to 4 on the host: this common error is detected.
 #[test]
 fn a_padded_vector_is_refused() {
     #[repr(C)]

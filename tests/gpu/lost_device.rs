@@ -1,4 +1,4 @@
-//! A device that goes away in the middle of a run: an error that says so, and a state from before that goes on.
+//! A device that is lost during a run: an error that says so, and an earlier state that can be continued.
 
 use kit::{Rig, assert_contains};
 use riprap::{
@@ -36,7 +36,7 @@ fn scene(text: &str) -> Scene {
     kit::scene::read(text).unwrap()
 }
 
-/// The message of a device that is gone.
+/// Asserts the message of a lost device.
 fn lost<T: std::fmt::Debug>(found: Result<T>) {
     let error = found.unwrap_err();
     assert!(matches!(error, Error::DeviceLost(_)), "{error}");
@@ -44,7 +44,7 @@ fn lost<T: std::fmt::Debug>(found: Result<T>) {
     assert_contains(&text, &["device lost", "checkpoint"]);
 }
 
-/// As [`Rig::wait`], where waiting itself may fail.
+/// As [`Rig::wait`], but waiting itself may fail.
 fn wait<T>(rig: &Rig, future: impl Future<Output = Result<T>>) -> Result<T> {
     let patience = std::time::Duration::from_secs(60);
     kit::gpu::drive(&rig.device, patience, "a test", future)?
@@ -95,7 +95,7 @@ fn a_scene_is_not_set_up_on_a_device_that_is_lost() {
     assert!(made.is_err());
 }
 
-/// A buffer that comes back by both ways of waiting, and a future that never comes.
+/// A buffer that is mapped by both methods of waiting, and a future that never completes.
 #[test]
 fn both_ways_of_waiting_end() {
     let rig = Rig::new();

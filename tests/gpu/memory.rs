@@ -1,14 +1,14 @@
-//! Devices that are too small or full: an error that names what does not fit, how large it is, and what to change.
+//! Devices that are too small or full: the error names what does not fit, its size, and a remedy.
 
 use kit::{Rig, assert_contains, gpu};
 use riprap::{Error, Result, scene::Scene, wgpu};
 
-/// 16 × 16 × 16 cells, with a block if `blocks` is one.
+/// 16 × 16 × 16 cells, with `blocks` added.
 fn flow(blocks: &str) -> Scene {
     stored("f32", blocks)
 }
 
-/// The same with its populations in another storage.
+/// The same with another storage of the populations.
 fn stored(storage: &str, blocks: &str) -> Scene {
     scene(&format!(
         r#"
@@ -47,7 +47,7 @@ fn scene(text: &str) -> Scene {
     kit::scene::read(text).unwrap()
 }
 
-/// A device whose buffers and bindings hold so many bytes.
+/// A device whose buffers and bindings hold at most this many bytes.
 fn small(bytes: u64) -> Rig {
     Rig::with_limits(wgpu::Limits {
         max_storage_buffer_binding_size: bytes,
@@ -56,14 +56,14 @@ fn small(bytes: u64) -> Rig {
     })
 }
 
-/// What a scene is refused with on a device.
+/// The result of making a simulation of a scene on a device.
 fn made(rig: &Rig, scene: &Scene) -> Result<()> {
     rig.simulation(scene).map(|_| ())
 }
 
 #[test]
 fn a_fluid_that_a_binding_does_not_hold_is_refused_with_its_bytes() {
-    // A direction of 4096 cells takes 16 384 bytes. Beside the populations a kernel of output has four bindings.
+    // A direction of 4096 cells takes 16 384 bytes. Besides the populations an output kernel has four bindings.
     let bindings = Rig::new()
         .device
         .limits()
@@ -88,7 +88,7 @@ fn blocks_that_a_binding_does_not_hold_are_refused_with_their_bytes() {
         ..small(80_000).device.limits()
     });
     assert!(made(&rig, &stored("f16", "")).is_ok());
-    // Where they are is known when they are placed.
+    // The cells are only known when the blocks are placed.
     let moved = rig
         .simulation(&stored("f16", BLOCK))
         .and_then(|mut made| rig.wait(made.advance(1)));
@@ -113,8 +113,8 @@ fn water_that_a_buffer_does_not_hold_is_refused_with_its_bytes() {
     assert!(made(&Rig::new(), &water()).is_ok());
 }
 
-/// A device on which every allocation counts as one too many: wgpu compares what is asked with a part of what the driver
-/// says is free, here none. Drivers that do not say what is free have no such device.
+/// A device on which every allocation fails: wgpu compares its size with a fraction of the free memory that the driver
+/// reports, here none. There is no such device with drivers that do not report free memory.
 fn full() -> Option<Rig> {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
         memory_budget_thresholds: wgpu::MemoryBudgetThresholds {
@@ -157,6 +157,6 @@ fn a_device_without_memory_says_what_it_does_not_hold() {
         made(&rig, &water()).unwrap_err(),
         &["800 particles", "larger spacing"],
     );
-    // Nothing of it is left to fail later.
+    // Nothing of it remains that could fail later.
     assert!(matches!(made(&rig, &water()), Err(Error::Device(_))));
 }

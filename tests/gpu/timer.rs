@@ -7,7 +7,7 @@ use riprap::{
 };
 use std::time::Duration;
 
-/// A device with timestamps, where the adapter has them.
+/// A device with timestamps, if the adapter has them.
 fn timed() -> Option<(wgpu::Device, wgpu::Queue)> {
     let adapter = kit::gpu::selected().unwrap();
     let wanted = wgpu::Features::TIMESTAMP_QUERY;
@@ -58,7 +58,7 @@ fn without_the_feature_there_is_no_timer() {
     assert!(timer::pass(None, "plain").timestamp_writes.is_none());
 }
 
-/// A phase that runs several times in a round is counted each time.
+/// A phase with several passes per round counts each of them.
 #[test]
 fn phases_add_up_the_times_of_their_passes() {
     let Some((device, queue)) = timed() else {

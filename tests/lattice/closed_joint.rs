@@ -1,4 +1,4 @@
-//! What closed joints let through, against the populations of their rows.
+//! Conductance of closed joints, compared with a reduced model of their rows.
 
 use kit::twin::{self, joint, of_setup::twin_of};
 use riprap::lattice::{Collision, Lattice, Setup, SolidOperator};

@@ -1,9 +1,9 @@
-//! The divergence guard names step and cell wherever it is asked and whichever bricks run.
+//! The divergence guard reports step and cell whenever it is read and whichever bricks run.
 
 use kit::Rig;
 use riprap::lattice::{Fault, Lattice, Observer, Setup, State};
 
-/// A box with a NaN in one population of a cell, put in at step `begin`.
+/// A box with a NaN in one population of a cell, set at step `begin`.
 fn poisoned(rig: &Rig, setup: &Setup, cell: [u32; 3], begin: u64) -> Lattice {
     let count = setup.cells.iter().product::<u32>() as usize;
     let mut clean = rig.start(setup.clone(), &State::rest(count), false);
@@ -19,7 +19,7 @@ fn poisoned(rig: &Rig, setup: &Setup, cell: [u32; 3], begin: u64) -> Lattice {
     lattice
 }
 
-/// What is found `steps` after that.
+/// The fault found `steps` steps after that.
 fn fault(rig: &Rig, setup: &Setup, cell: [u32; 3], begin: u64, steps: usize) -> Option<Fault> {
     let mut lattice = poisoned(rig, setup, cell, begin);
     rig.run(&mut lattice, steps);
@@ -62,7 +62,7 @@ fn steps_are_counted_where_the_first_brick_is_solid() {
 fn sums_of_a_flow_that_is_no_number_have_no_largest_speed() {
     let rig = Rig::new();
     let mut setup = Setup::periodic([8; 3], 0.01);
-    // Nothing stops the run.
+    // Without a speed limit nothing stops the run.
     setup.max_speed = 0.0;
     let mut lattice = poisoned(&rig, &setup, [5, 3, 6], 0);
     for _ in 0..2 {

@@ -3,7 +3,7 @@
 use kit::{Rig, assert_contains, assert_near};
 use riprap::lattice::{Force, Observer, Setup, State};
 
-/// Populations carry momentum without half of the force of the step that comes; what is read has it.
+/// Populations carry momentum without half of the force of the coming step; the momentum that is read includes it.
 #[test]
 fn momentum_is_what_each_force_has_put_in() {
     let rig = Rig::new();

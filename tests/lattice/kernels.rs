@@ -145,7 +145,7 @@ fn consistent_start_and_macroscopic_fields() {
             })
             .collect();
         twin.start(&rho, &u);
-        // The first velocity is the given one: Σ c f = ρu − F/2.
+        // The initial velocity is the given one: Σ c f = ρu − F/2.
         for f in twin
             .f
             .iter_mut()

@@ -1,5 +1,5 @@
-//! Grids at the limits of devices: few and small bindings, many workgroups, too many cells, and
-//! hardly any; and numbers beyond all limits.
+//! Grids at the limits of devices: few and small bindings, many workgroups, too many cells, and very few; and numbers
+//! beyond all limits.
 
 use kit::{Rig, assert_contains, assert_near};
 use riprap::{
@@ -12,7 +12,7 @@ use riprap::{
     wgpu,
 };
 
-/// What WebGPU promises everywhere: 8 storage buffers of 128 MiB a kernel.
+/// Limits that WebGPU guarantees everywhere: 8 storage buffers of 128 MiB per kernel.
 fn promised() -> wgpu::Limits {
     let limits = wgpu::Limits::default();
     assert_eq!(limits.max_storage_buffers_per_shader_stage, 8);
@@ -43,7 +43,7 @@ fn sums(rig: &Rig, lattice: &mut Lattice) -> Sums {
         .unwrap()
 }
 
-/// Everything that takes bindings at once leaves two for the populations.
+/// With all features that take bindings, two are left for the populations.
 #[test]
 fn eight_storage_buffers_give_the_same_bits_as_more() {
     let mut setup = Setup::periodic([9, 6, 8], 1e-3);
@@ -66,11 +66,11 @@ fn eight_storage_buffers_give_the_same_bits_as_more() {
     let (two, found) = run(promised(), Some(2));
     assert_eq!(two, 2);
     assert!(found == expected, "two bindings");
-    // What leaves two of eight leaves all but six of more.
+    // All features leave two of eight bindings, hence all but six of more.
     let most = (all.device.limits().max_storage_buffers_per_shader_stage - 6).min(27);
     let (_, found) = run(all.device.limits(), Some(most));
     assert!(found == expected, "{most} bindings");
-    // More than the device has are refused, not cut.
+    // More than the device has are refused, not reduced.
     let rig = Rig::with_limits(promised());
     setup.bindings = Some(3);
     let refused = Lattice::new(&rig.device, setup).unwrap_err();
@@ -159,7 +159,7 @@ fn blocks_in_512_cells_an_axis_fit_in_80_gigabytes() {
     }
 }
 
-/// The message of [`Error::Limit`], after a look at its numbers.
+/// The message of [`Error::Limit`], after a check of its numbers.
 fn limit(error: Error) -> String {
     match &error {
         Error::Limit { wants, has, .. } => assert!(wants > has, "{error}"),
@@ -180,13 +180,13 @@ fn a_grid_that_the_device_does_not_hold_is_refused_with_numbers() {
         assert!(message.contains("cells"), "{message}");
         assert!(message.contains("134217728"), "{message}");
     }
-    // More cells than an index of 32 bits reaches, on whatever device.
+    // More cells than a 32-bit index can address, on any device.
     let setup = Setup::periodic([2000, 2000, 2000], 1e-3);
     let message = limit(Lattice::new(&rig.device, setup).unwrap_err());
     assert!(message.contains("8000000000"), "{message}");
 }
 
-/// As many cells as the refusal names do fit.
+/// The number of cells named by the refusal fits.
 #[test]
 fn the_remedy_of_a_refused_grid_holds() {
     let kinds =
@@ -208,8 +208,8 @@ fn the_remedy_of_a_refused_grid_holds() {
     }
 }
 
-/// 67 188 workgroups in one row, 65 535 of which WebGPU promises. The waves are the same from the
-/// first to the last; the sums, whose loops must be short on every driver, count every cell.
+/// 67 188 workgroups in one row, while WebGPU guarantees 65 535. The waves are the same from the first to the last; the sums,
+/// whose loops must be short on every driver, include every cell.
 #[test]
 fn more_workgroups_than_one_dimension_holds() {
     const NX: u32 = 4_300_000;
@@ -232,11 +232,11 @@ fn more_workgroups_than_one_dimension_holds() {
     }
     let sums = sums(&rig, &mut lattice);
     assert_eq!(sums.cells, f64::from(NX));
-    // 1e-9 a cell: single precision rounds 0.01 to that.
+    // 1e-9 per cell: the rounding of 0.01 in single precision.
     assert_near(sums.excess, mass, 1e-9 * f64::from(NX));
 }
 
-/// A duct of one cell, between slip walls: 4.56 million links, again more than 65 535 groups.
+/// A duct of one cell between slip walls: 4.56 million links, again more than 65 535 workgroups.
 #[test]
 fn more_links_than_one_dimension_holds() {
     const NX: u32 = 190_000;
@@ -260,7 +260,7 @@ fn more_links_than_one_dimension_holds() {
     assert_eq!(sums(&rig, &mut lattice).cells, f64::from(NX));
 }
 
-/// Mass before and after 100 steps of noise, for every layout that takes the height.
+/// Compares the mass before and after 100 steps of noise, for every layout that fits the height.
 fn keeps_its_mass(size: [u32; 3], walls: [bool; 3]) {
     let rig = Rig::new();
     for (storage, lanes) in [
@@ -294,8 +294,8 @@ fn keeps_its_mass(size: [u32; 3], walls: [bool; 3]) {
         rig.run(&mut lattice, 101);
         let after = sums(&rig, &mut lattice);
         assert_eq!(after.cells, count);
-        // Each step rounds 27 populations of about 0.003 to 2^-25 or, in 16 bits, 2^-12 of that. In
-        // 100 steps these errors add up, as random ones do, to a tenth of what is allowed.
+        // Each step rounds 27 populations of about 0.003 to 2^-25 or, in 16 bits, 2^-12 of that. In 100 steps these random errors
+        // add up to a tenth of the tolerance.
         let drift = match storage {
             Storage::F32 => 1e-7,
             Storage::F16 => 5e-4,
@@ -330,7 +330,7 @@ fn odd_and_prime_grids_keep_their_mass() {
     keeps_its_mass([2, 2, 2], [false; 3]);
 }
 
-/// A fluid cell between solids on all sides: what is at rest there stays at rest to the bit.
+/// A fluid cell between solids on all sides: fluid at rest there stays at rest bitwise.
 #[test]
 fn a_cell_between_solids_is_a_closed_box() {
     let rig = Rig::new();
@@ -347,7 +347,7 @@ fn a_cell_between_solids_is_a_closed_box() {
     assert!(after.max_speed < 1e-7, "{after:?}");
 }
 
-/// A device that does nothing: what is refused never reaches one.
+/// A device that does nothing: refused input never reaches one.
 fn nothing() -> (wgpu::Device, wgpu::Queue) {
     wgpu::Device::noop(&wgpu::DeviceDescriptor::default())
 }
@@ -398,7 +398,7 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         refused("wale", &|s| s.wale = Some(bad));
     }
     refused("max_speed", &|s| s.max_speed = -1.0);
-    // It would push water into the domain, or out of it.
+    // It would push water into the domain or out of it.
     refused("faces.y_min", &closed(Face::Wall([0.0, 0.1, 0.0])));
     refused("brick", &|s| s.brick = [u32::MAX; 3]);
     refused("brick", &|s| s.brick = [1 << 31, 1 << 31, 1 << 7]);
@@ -447,7 +447,7 @@ fn velocities_of_faces_that_are_none_are_refused() {
     );
 }
 
-/// A kernel of output has five storage buffers.
+/// An output kernel has five storage buffers.
 #[test]
 fn a_device_of_few_bindings_is_told_of_them_and_not_of_bytes() {
     let limits = |n| wgpu::Limits {

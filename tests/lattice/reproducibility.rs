@@ -1,4 +1,4 @@
-//! The same bits: twice, after a checkpoint, in every layout, from any workgroup.
+//! Bitwise equal results: of two runs, after a checkpoint, in every layout, from any workgroup.
 
 use kit::Rig;
 use riprap::{
@@ -9,7 +9,7 @@ use riprap::{
     wgpu,
 };
 
-/// WALE, force, walls, a turbulent inlet and an outflow: everything that carries memory from step to step.
+/// WALE, force, walls, a turbulent inlet and an outflow: everything whose state persists from step to step.
 fn setup() -> Setup {
     let mut setup = Setup::periodic([11, 7, 8], 1e-3);
     setup.wale = Some(0.5);
@@ -46,7 +46,7 @@ fn run(rig: &Rig, setup: Setup, steps: usize) -> (Lattice, Populations) {
     (lattice, end)
 }
 
-/// Bits of the fluid cells; what lies in solids is nobody's.
+/// Bits of the fluid cells; the content of solid cells is undefined.
 fn bits(populations: &Populations) -> Vec<u32> {
     let solid = setup().solid;
     let cells = populations.values.iter().zip(solid.iter().cycle());
@@ -120,7 +120,7 @@ fn words_that_the_device_has_not_are_refused() {
     assert!(error.contains("SHADER_INT64"), "{error}");
 }
 
-/// A file's worth of a fluid, with velocities in two cells of a solid.
+/// A checkpoint of a fluid, with velocities in two cells of a solid.
 fn checkpoint(populations: Populations) -> Checkpoint {
     Checkpoint {
         step: populations.step,

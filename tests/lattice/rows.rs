@@ -1,11 +1,11 @@
-//! Rows of cells that suit an adapter.
+//! Row lengths that suit an adapter.
 
 use riprap::{
     lattice::{Face, Grid, Setup, SolidOperator},
     wgpu,
 };
 
-/// Rows of 64, or of 32 where those leave fewer invocations beyond the grid; short grids have short rows.
+/// Rows of 64, or of 32 if those leave fewer invocations outside of the grid; short grids have short rows.
 #[test]
 fn rows_for_cpus_leave_few_invocations_beyond_the_grid() {
     for (cells, wall, row) in [
@@ -30,7 +30,7 @@ fn rows_for_cpus_leave_few_invocations_beyond_the_grid() {
     }
 }
 
-/// Rows as long as few invocations of them are idle, and of 32 where blocks are in the fluid; each begins at a line of memory.
+/// Rows that are as long as few idle invocations allow, and of 32 with blocks in the fluid; each begins at a memory line.
 #[test]
 fn rows_for_gpus_are_long_and_aligned() {
     for (cells, blocks, brick) in [

@@ -1,4 +1,4 @@
-//! Statistics over time against sums in f64.
+//! Statistics over time, compared with sums in f64.
 
 use kit::{Random, Rig, twin::statistics::moments};
 use riprap::{
@@ -9,7 +9,7 @@ use riprap::{
     wgpu,
 };
 
-/// What is sampled: the buffers of an observer, filled by the test.
+/// The sampled signal: the buffers of an observer, filled by the test.
 struct Signal {
     rig: Rig,
     lattice: Lattice,
@@ -79,7 +79,7 @@ const ALL: [Statistic; 11] = [
     Statistic::ReynoldsStress(5),
 ];
 
-/// Correlated fluctuations about means that are ten times as large.
+/// Correlated fluctuations around means that are ten times as large.
 fn sample(random: &mut Random, cells: usize) -> Vec<[f32; 4]> {
     let mut one = || {
         let [a, b, c, d] = [(); 4].map(|()| random.between(-1.0, 1.0));
@@ -96,7 +96,7 @@ fn sample(random: &mut Random, cells: usize) -> Vec<[f32; 4]> {
 
 #[test]
 fn means_and_covariances_are_those_of_all_samples() {
-    // Odd sizes, one cell; before, at and after the end of a block; one buffer and several.
+    // Odd sizes, one cell; before, at and after the end of a sampling block; one buffer and several.
     let small = {
         let all = kit::gpu::selected().unwrap().limits();
         wgpu::Limits {
@@ -138,7 +138,7 @@ fn means_and_covariances_are_those_of_all_samples() {
                         "{cells:?} {count} {k}: {error} of {scale}"
                     );
                 }
-                // Of stresses by the scale of their components.
+                // Errors of stresses relative to the scale of their components.
                 let scale = |k: usize| match k {
                     0..=3 => product[k],
                     _ => (product[k - 3] * product[k % 3 + 1]).sqrt(),
@@ -160,7 +160,7 @@ fn means_and_covariances_are_those_of_all_samples() {
     }
 }
 
-/// A stream between walls that a force drives, in two layouts.
+/// A stream between walls, driven by a force, in two layouts.
 #[test]
 fn samples_from_populations_are_those_of_an_observer() {
     let rig = Rig::new();

@@ -1,4 +1,4 @@
-//! Cells that solids at rest fill in part: against the f64 twin, and where planes lie along the grid.
+//! Cells that solids at rest fill partially: compared with the f64 twin, and the position of planes along the grid.
 
 use super::kernels::assert_equal_to_twin;
 use kit::{
@@ -12,7 +12,7 @@ use riprap::{
     wgpu,
 };
 
-/// A bump on the walls of every kind, with its surface in the fluid cells beside its solid ones.
+/// A bump on walls of every kind, with its surface in the fluid cells next to its solid ones.
 fn bumpy(lanes: u32, storage: riprap::lattice::Storage) -> Setup {
     let mut setup = walled(lanes, storage);
     let beside = |cell: usize| {
@@ -56,7 +56,7 @@ fn collisions_in_a_periodic_box() {
         let mut setup = Setup::periodic([5, 7, 4], 0.015);
         setup.collision = collision;
         if collision == Collision::Suga {
-            // It keeps its published rates.
+            // Suga's operator keeps its published rates.
             setup.solid_lambda = None;
         }
         setup.surface = (0..140)
@@ -70,7 +70,7 @@ fn collisions_in_a_periodic_box() {
     }
 }
 
-/// Poiseuille's flow between planes that cut their cells, on 8 cells: by the velocity in the middle.
+/// Poiseuille flow between planes that cut their cells, on 8 cells: compared by the velocity in the middle.
 #[test]
 fn planes_along_the_grid_lie_where_they_should() {
     let rig = Rig::new();

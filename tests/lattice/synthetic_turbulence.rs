@@ -1,4 +1,4 @@
-//! Turbulence that velocity faces feed: against the sum of its modes in f64, its variance, its divergence and its net flow.
+//! Turbulence at velocity faces: compared with the sum of its modes in f64; its variance, divergence and net flow.
 
 use kit::{Rig, assert_contains, assert_near};
 use riprap::{
@@ -12,7 +12,7 @@ const TURBULENCE: SyntheticTurbulence = SyntheticTurbulence {
     seed: 5,
 };
 
-/// A box whose face has these velocities and turbulence.
+/// A box with a face that has these velocities and turbulence.
 fn setup(axis: usize, side: usize, velocity: [f32; 3], turbulence: SyntheticTurbulence) -> Setup {
     let mut setup = Setup::periodic([7, 11, 9], 0.02);
     setup.max_speed = 0.0;
@@ -38,7 +38,7 @@ fn start(rig: &Rig, setup: Setup) -> Lattice {
     lattice
 }
 
-/// Place on the face and velocity of each of its cells in the last step.
+/// Position on the face and velocity of each of its cells in the last step.
 fn velocities(rig: &Rig, lattice: &Lattice, axis: usize) -> Vec<([u32; 2], [f64; 3])> {
     let buffer = lattice.wall_velocity_buffer().unwrap();
     let count = (buffer.size() / 4) as usize;
@@ -56,7 +56,7 @@ fn velocities(rig: &Rig, lattice: &Lattice, axis: usize) -> Vec<([u32; 2], [f64;
         .collect()
 }
 
-/// u'/(intensity U) at a place of the face when the flow has come so far.
+/// u'/(intensity U) at a position on the face when the flow has travelled this far.
 fn fluctuation(modes: &[FourierMode], axis: usize, at: [u32; 2], travelled: f64) -> [f64; 3] {
     let (a, b) = in_plane(axis);
     let mut u = [0.0; 3];
@@ -83,7 +83,7 @@ fn a_face_has_the_sum_of_its_modes_without_their_net_flow() {
             let advance = (f64::from(mean[axis]) * 65536.0).round() / 65536.0;
             for steps in [2, 1, 500] {
                 rig.run(&mut lattice, steps);
-                // The state at the start is complete: step 1 is the first that is fed.
+                // The initial state is complete: step 1 is the first with turbulence at the face.
                 let distance = (lattice.step() - 2) as f64 * advance;
                 let found = velocities(&rig, &lattice, axis);
                 let expected: Vec<_> = found
@@ -129,8 +129,8 @@ fn the_modes_have_the_intensity() {
     }
 }
 
-/// The flow comes one cell a step, so that three steps give the difference along the normal; the net flow that is taken off is the
-/// same in all cells.
+/// The flow moves one cell per step, so that three steps give the difference along the normal; the net flow that is subtracted
+/// is the same in all cells.
 #[test]
 fn central_differences_have_no_divergence() {
     let rig = Rig::new();
@@ -153,7 +153,7 @@ fn central_differences_have_no_divergence() {
         for y in 1..cells[b] - 1 {
             for x in 1..cells[a] - 1 {
                 let here = [x, y];
-                // What is upstream comes later.
+                // Fluid farther upstream arrives later.
                 let normal = at(0, here, axis) - at(2, here, axis);
                 let lower = at(1, [x + 1, y], a) - at(1, [x - 1, y], a);
                 let upper = at(1, [x, y + 1], b) - at(1, [x, y - 1], b);
@@ -162,13 +162,13 @@ fn central_differences_have_no_divergence() {
         }
         let mean = divergence.iter().sum::<f64>() / divergence.len() as f64;
         for value in divergence {
-            // Of rates of 0.1; velocities of 1 round to 6e-8.
+            // The rates are 0.1; velocities of 1 round to 6e-8.
             assert_near(value, mean, 5e-7);
         }
     }
 }
 
-/// A flow that becomes faster carries the same eddies faster, and stronger ones.
+/// A flow that accelerates carries the same eddies faster and amplifies them.
 #[test]
 fn a_change_of_the_mean_velocity_goes_on_from_the_same_eddies() {
     let rig = Rig::new();

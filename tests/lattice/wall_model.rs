@@ -1,4 +1,4 @@
-//! Friction of walls by a law of the wall: against its f64 twin, without slip in laminar flow, and exact in momentum.
+//! Friction on walls by a wall law: compared with its f64 twin, no slip in laminar flow, and exact momentum balance.
 
 use crate::kernels::assert_equal_to_twin;
 use kit::{
@@ -12,7 +12,7 @@ use riprap::lattice::{Face, Force, Setup, State, WallModel};
 
 const WALL: Face = Face::Wall([0.0; 3]);
 
-/// A channel normal to an axis, with both walls rough or smooth, and a bar on one of them that has edges.
+/// A channel normal to an axis, with rough or smooth walls, and a bar with edges on one of them.
 fn channel(normal: usize, nu: f64) -> Setup {
     let mut cells = [8, 8, 8];
     cells[normal] = 11;
@@ -27,7 +27,7 @@ fn channel(normal: usize, nu: f64) -> Setup {
 fn kernel_and_twin() {
     for (n, (storage, lanes, axis)) in layouts().into_iter().enumerate() {
         for normal in 0..3 {
-            // No slip, between, and the model in full: at random velocities of 0.003 y+ of the first cell is near 0.3, 4 and 80.
+            // No slip, blended, and the full model: at random velocities of 0.003, y+ of the first cell is near 0.3, 4 and 80.
             let nu = [3e-3, 3e-5, 1e-6][(n + normal) % 3];
             let mut setup = channel(normal, nu);
             (setup.storage, setup.lanes, setup.lane_axis) = (storage, lanes, axis);
@@ -84,7 +84,7 @@ fn waves(cells: [u32; 3], speed: f64) -> State {
 #[test]
 fn laminar_walls_have_no_slip_to_the_bit() {
     let rig = Rig::new();
-    // y+ of the first cell up to 2.
+    // y+ of the first cell is up to 2.
     let setup = channel(2, 5e-3);
     let mut plain = setup.clone();
     plain.wall_model = None;
@@ -137,7 +137,7 @@ fn the_fluid_loses_what_the_walls_receive() {
     }
 }
 
-/// Of both laws to u⁺ = ln(y⁺)/0.384 + 4.27.
+/// Compares both laws with u⁺ = ln(y⁺)/0.384 + 4.27.
 #[test]
 fn laws_are_near_the_log_law() {
     let farthest = |law: WallLaw, from: f64, to: f64| {

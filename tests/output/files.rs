@@ -16,7 +16,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// What VTK finds in a `.vti` or `.pvd`.
+/// The content of a `.vti` or `.pvd` as read by VTK.
 fn read_with_vtk(path: &Path) -> serde_json::Value {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     let python = target.join("python/bin/python");
@@ -37,7 +37,7 @@ fn read_with_vtk(path: &Path) -> serde_json::Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// An image with different sizes along each axis, so that swapped axes show.
+/// An image with different sizes along each axis, so that swapped axes are detected.
 fn example() -> Image {
     let cells = [3, 4, 5];
     let mut image = Image {
@@ -86,7 +86,7 @@ fn vtk_reads_back_shape_position_and_every_array() {
         for component in 0..array.components {
             let sum: f64 = tuples.iter().map(|tuple| tuple[component]).sum();
             let read = read["sums"][component].as_f64().unwrap();
-            // Both add 60 exact f32 values in f64, maybe in another order.
+            // Both add 60 exact f32 values in f64, possibly in another order.
             assert!(
                 (read - sum).abs() <= 60.0 * f64::EPSILON * sum.abs(),
                 "{read} ≠ {sum}"
@@ -163,7 +163,7 @@ fn a_table_restarts_without_double_rows_and_keeps_every_digit() {
     fs::write(&path, unbroken.clone() + "10,1.0,0.").unwrap();
 
     let mut csv = Csv::resume(&path, &columns, 6).unwrap();
-    // That step was written by the run before, which knew more.
+    // That step was written by the previous run.
     csv.append(6, 0.6, &value(9)).unwrap();
     for step in 7..10 {
         csv.append(step, 0.1 * step as f64, &value(step)).unwrap();
@@ -230,7 +230,7 @@ fn a_disk_that_fills_up_leaves_the_former_image() {
     let path = folder.join("flow.vti");
     write_vti(&path, &example()).unwrap();
     let former = fs::read(&path).unwrap();
-    // The next draft meets a full device.
+    // The next draft is written to a full device.
     std::os::unix::fs::symlink("/dev/full", folder.join("flow.vti.part")).unwrap();
     let error = write_vti(&path, &example())
         .expect_err("no space")
@@ -240,7 +240,7 @@ fn a_disk_that_fills_up_leaves_the_former_image() {
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
 
-/// A folder below a file can be made by nobody, root included.
+/// A folder below a file cannot be created, even by root.
 #[cfg(unix)]
 #[test]
 fn a_folder_that_cannot_be_is_named_with_its_remedy() {

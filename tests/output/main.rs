@@ -1,4 +1,4 @@
-//! Files, and quantities that are derived for them.
+//! Files, and quantities derived for them.
 
 mod files;
 mod velocity_quantities;

@@ -1,4 +1,4 @@
-//! What `riprap::output` computes from an image: values between cells, vorticity, Q.
+//! Quantities that `riprap::output` computes from an image: values between cells, vorticity, Q.
 
 use riprap::output::{Array, Image, VelocityQuantities};
 use std::f64::consts::TAU;
@@ -11,7 +11,7 @@ fn a_sample_is_linear_between_centres_clamped_and_blind_to_solids() {
         cells: [4, 3, 2],
         arrays: Vec::new(),
     };
-    // Exact in f32 and f64, so that the interpolation of a linear field may be compared by ==.
+    // Exact in f32 and f64, so that the interpolation of a linear field can be compared by ==.
     let linear = |[x, y, z]: [f64; 3]| 2.0 * x - y + 4.0 * z;
     let mut values = Vec::new();
     let mut solid = Vec::new();
@@ -46,7 +46,7 @@ fn a_sample_is_linear_between_centres_clamped_and_blind_to_solids() {
         components: 1,
         values: solid,
     });
-    // Half-way to the solid the last fluid cell speaks alone; inside nobody does.
+    // Half-way to the solid only the last fluid cell contributes; inside there is no value.
     assert_eq!(
         at(&image, [2.5, 0.75, 0.25]),
         Some(linear([2.25, 0.75, 0.25]))
@@ -85,7 +85,7 @@ fn vortex(cells: usize, solid: impl Fn(f64, f64) -> bool) -> Image {
     }
 }
 
-/// Largest errors of vorticity 2 sin x sin y and Q = cos²x cos²y·(−1) + sin²x sin²y in the fluid.
+/// Largest errors of the vorticity 2 sin x sin y and of Q = cos²x cos²y·(−1) + sin²x sin²y in the fluid.
 fn vortex_errors(cells: usize, periodic: bool, solid: fn(f64, f64) -> bool) -> [f64; 2] {
     let image = vortex(cells, solid);
     let quantities =
@@ -120,10 +120,10 @@ fn vorticity_and_q_converge_with_second_order_up_to_walls_and_solids() {
         let coarse = vortex_errors(32, periodic, solid);
         let fine = vortex_errors(64, periodic, solid);
         for (coarse, fine) in coarse.into_iter().zip(fine) {
-            // Truncation (h²/3)|u'''| one-sided, both gradients of which enter: h = 0.098 m.
+            // One-sided truncation error (h²/3)|u'''|, for both gradients: h = 0.098 m.
             assert!(fine < 2.0 * 0.098_f64.powi(2) / 3.0, "error {fine}");
             let order = (coarse / fine).log2();
-            // Of a maximum over cells whose places shift with h; 2 in the limit.
+            // From a maximum over cells whose positions shift with h; 2 in the limit.
             assert!((1.8..2.2).contains(&order), "order {order}");
         }
     }

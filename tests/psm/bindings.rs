@@ -1,4 +1,4 @@
-//! What blocks leave in cells, over several bindings.
+//! The saturation of cells with blocks, over several bindings.
 
 use glam::{DQuat, DVec3};
 use kit::Rig;
@@ -20,7 +20,7 @@ fn setup() -> Setup {
     setup
 }
 
-/// A box that turns, for some steps; the bindings of the planes, and the loads of the last step.
+/// A rotating box, for some steps; returns the bindings of the planes, the loads of the last step and the populations.
 fn run(limits: wgpu::Limits) -> (u32, Vec<u32>, Populations) {
     let rig = Rig::with_limits(limits);
     let (device, queue) = (&rig.device, &rig.queue);
@@ -74,7 +74,7 @@ fn planes_above_a_binding_are_spread() {
     }
     let (one, loads, populations) = run(all.clone());
     assert_eq!(one, 1);
-    // Two planes of all cells, of nine.
+    // Two of nine planes of all cells.
     let plane = 4 * u64::from(Grid::new(&setup()).unwrap().scalar_count());
     let (several, found, there) = run(wgpu::Limits {
         max_storage_buffer_binding_size: 2 * plane,

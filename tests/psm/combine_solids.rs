@@ -1,4 +1,4 @@
-//! The solid of all parts in each cell.
+//! Combination of all parts in each cell.
 
 use crate::{
     effective::together,
@@ -12,7 +12,7 @@ use riprap::psm::{
 };
 use std::collections::BTreeSet;
 
-/// How a block moves, in f64.
+/// Motion of a block, in f64.
 pub struct Moving {
     pub centre: DVec3,
     pub velocity: DVec3,
@@ -39,7 +39,7 @@ impl Moving {
             gradient_x: x,
             gradient_y: y,
             gradient_z: z,
-            // Nobody may use them.
+            // Padding that no kernel may use.
             pad0: POISON,
             pad1: POISON,
             pad2: POISON,
@@ -54,7 +54,7 @@ impl Moving {
     }
 }
 
-/// Balls of several blocks, some of more than one, in a domain of about 20 cells around `middle`.
+/// Balls of several blocks, some with more than one, in a domain of about 20 cells around `middle`.
 pub fn crowd(noise: &mut Random, blocks: u32, middle: DVec3) -> Vec<Placed> {
     let mut placed = Vec::new();
     for block in 0..blocks {
@@ -85,7 +85,7 @@ pub fn random_shares(tiling: &Tiling, noise: &mut Random) -> Vec<f32> {
     shares
 }
 
-/// Effective fractions that go with them, of any size where a part is in a cell or next to it.
+/// Effective fractions for the shares, of any size if a part is in a cell or next to it.
 pub fn random_effective(shares: &[f32], noise: &mut Random) -> Vec<[f32; 2]> {
     let one = |share: &f32| match *share {
         INTERIOR | 1.0 => [1.0; 2],
@@ -98,7 +98,7 @@ pub fn random_effective(shares: &[f32], noise: &mut Random) -> Vec<[f32; 2]> {
     shares.iter().map(one).collect()
 }
 
-/// Sum of the effective fractions with its marks, velocity, and fraction of one cell of a slot.
+/// Sum of the effective fractions with its marks, velocity, and solid fraction of one cell of a slot.
 fn twin(
     tiling: &Tiling,
     (shares, effective): (&[f32], &[[f32; 2]]),
@@ -136,7 +136,7 @@ fn twin(
     let (mark, velocity) = match (sum > 0.0, near) {
         (true, _) if deep => (sum + f64::from(INTERIOR_SUM), flux / sum),
         (true, _) if met.len() > 1 && filled > 0.9 => {
-            // Those that touch count as the joint closes.
+            // Parts that touch the cell contribute as the joint closes.
             let tight = ((filled - 0.9) / 0.098).min(1.0);
             let mean = (flux + tight * touching) / (sum + tight * touched);
             let most = parts.iter().map(|(share, _)| *share).fold(0.0, f64::max);
@@ -177,7 +177,7 @@ fn shares_add_and_velocities_are_their_mean() {
         let motions: Vec<_> = moving.iter().map(Moving::on_device).collect();
         let words = tiling.slots as usize * PLANES * shares.len() / tiling.tiles.len();
         let saturation = bench.poisoned(words * lanes as usize);
-        // Every third lane is not listed; of the others every other one from its first to its last cell.
+        // Every third lane is not listed; of the others every other tile from its first to its last cell.
         let listed = |row: &u32| row % 3 != 1;
         let whole = |row: u32| row.is_multiple_of(2);
         let job = |row| if whole(row) { row | WHOLE } else { row };
@@ -194,7 +194,7 @@ fn shares_add_and_velocities_are_their_mean() {
             ("effective_fractions", &bench.buffer(&effective)),
             ("psm_planes_0", &saturation),
         ];
-        // Either walk.
+        // Either kind of walk.
         let walk = [Walk::Serial, Walk::Parallel][(seed % 2) as usize];
         let program = combine_parts(&tiling.grid, walk);
         let numbers = constants(&tiling.grid);

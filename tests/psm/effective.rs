@@ -1,4 +1,4 @@
-//! The fraction of a cell that decides the weight of the solid, in f64 (docs/src/theory/solids.md).
+//! The effective solid fraction of a cell, from which the weight of the solid follows, in f64 (docs/src/theory/solids.md).
 
 use crate::{
     exact::{ball_fraction, hull_fraction},
@@ -10,12 +10,12 @@ use glam::{DQuat, DVec3};
 use kit::{Random, Workbench};
 use riprap::{geometry::HalfSpace, lattice::SolidWeight};
 
-/// Of a polyhedron of which `solid` is in the cell about `r`: alone, and beside others.
+/// Effective fractions of a polyhedron with the fraction `solid` in the cell about `r`: alone, and next to other parts.
 pub fn effective_hull(faces: &[HalfSpace], r: DVec3, solid: f64) -> [f64; 2] {
     if solid <= 0.0 {
         return [0.0; 2];
     }
-    // What rounding leaves out of a cell is nothing, of which the fourth root would be something.
+    // Rounding is removed, since its fourth root would not be small.
     let left = |face: &HalfSpace| match hull_fraction(std::slice::from_ref(face), r) {
         left if left > 1.0 - 1e-12 => 1.0,
         left => left.max(1e-6),
@@ -40,7 +40,7 @@ pub fn effective_hull(faces: &[HalfSpace], r: DVec3, solid: f64) -> [f64; 2] {
     [effective, left[least]].map(|e| e * (solid / product).sqrt().min(1.0))
 }
 
-/// Of parts that share a cell, each with its solid fraction and its effective ones.
+/// Effective fraction of parts that share a cell, each with its solid fraction and its effective ones.
 pub fn together(parts: &[(f64, [f64; 2])]) -> f64 {
     let parts: Vec<_> = parts
         .iter()
@@ -58,7 +58,7 @@ pub fn together(parts: &[(f64, [f64; 2])]) -> f64 {
     each.fold(all, f64::max).min(1.0)
 }
 
-/// Of a sphere whose radius grows by `growth` over it.
+/// Effective fraction of a sphere, whose radius grows by `growth` over the radius.
 pub fn effective_ball(radius: f64, growth: f64, r: DVec3) -> f64 {
     let radius = radius + growth / radius.max(2.0);
     match (r.abs() + 0.5).length() <= radius {
@@ -67,7 +67,7 @@ pub fn effective_ball(radius: f64, growth: f64, r: DVec3) -> f64 {
     }
 }
 
-/// In the notation of the docs: two planes at a right angle leave 1/4 and 3/4; a plane that leaves all counts as none.
+/// In the notation of the docs: two planes at a right angle leave 1/4 and 3/4; a plane that leaves all does not count.
 #[test]
 fn planes_at_right_angles() {
     let plane = |normal, distance| HalfSpace { normal, distance };
@@ -84,7 +84,7 @@ fn planes_at_right_angles() {
     }
 }
 
-/// Boxes that are flush with each other leave what the plane of both does, wherever their joints are.
+/// Flush boxes leave the same as the plane of both, wherever their joints are.
 #[test]
 fn flush_parts() {
     let plane = |normal, distance| HalfSpace { normal, distance };
@@ -111,7 +111,7 @@ fn flush_parts() {
     }
 }
 
-/// Fourth roots of what planes leave out take rounding of 1e-7 to 0.02; there are few such cells.
+/// Fourth roots of the complements of planes amplify rounding of 1e-7 to 0.02; there are few such cells.
 #[test]
 fn effective_fractions_of_edges_and_spheres() {
     let bench = Workbench::new(None);
@@ -152,7 +152,7 @@ fn effective_fractions_of_edges_and_spheres() {
             for (found, expected) in effective[2 * place..].iter().zip(expected) {
                 let found = f64::from(*found);
                 assert!((0.0..=1.0).contains(&found), "{r}: {found}");
-                // A cell that counts has a mark.
+                // A cell that counts has a share or a mark.
                 assert!(share != 0.0 || found == 0.0, "{r}: {found}");
                 let error = (found - expected).abs();
                 if expected > 0.0 && expected < 1.0 {

@@ -1,11 +1,11 @@
-//! Exact volumes in f64: of polyhedra by cutting polygons, of balls by sections.
+//! Exact volumes in f64: of polyhedra by clipping polygons, of balls by sections.
 
 use glam::{DVec2, DVec3};
 use kit::{assert_near, assert_relative};
 use riprap::geometry::HalfSpace;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// What planes leave of a convex body, kept as its polygons, counter-clockwise seen from outside.
+/// A convex body clipped by planes, kept as its polygons, counter-clockwise seen from outside.
 #[derive(Clone)]
 pub struct Solid(Vec<Vec<DVec3>>);
 
@@ -15,7 +15,7 @@ impl Solid {
         let corner = |x: f64, y: f64, z: f64| centre + DVec3::new(x, y, z) / 2.0;
         let mut faces = Vec::new();
         for side in [-1.0, 1.0] {
-            // Around the axis, and backwards on the lower side.
+            // Around the axis, and reversed on the lower side.
             let ring = [(-side, -1.0), (side, -1.0), (side, 1.0), (-side, 1.0)];
             faces.push(ring.map(|(a, b)| corner(side, a, b)).to_vec());
             faces.push(ring.map(|(a, b)| corner(b, side, a)).to_vec());
@@ -24,7 +24,7 @@ impl Solid {
         Self(faces)
     }
 
-    /// What is inside `plane`.
+    /// The part inside `plane`.
     pub fn cut(self, plane: &HalfSpace) -> Self {
         let mut rim = Vec::new();
         let mut kept = Vec::new();
@@ -74,14 +74,14 @@ impl Solid {
     }
 }
 
-/// Share of the unit cell about `centre` inside all `faces`.
+/// Fraction of the unit cell about `centre` inside all `faces`.
 pub fn hull_fraction(faces: &[HalfSpace], centre: DVec3) -> f64 {
     let solid = faces.iter().fold(Solid::cell(centre), Solid::cut);
     solid.volume()
 }
 
-/// Share of the unit cell about `centre` inside the ball about the origin: sections across z, of which the area is exact,
-/// by tanh-sinh quadrature (Takahasi & Mori 1974) between the heights at which the section changes its shape.
+/// Fraction of the unit cell about `centre` inside the ball about the origin: sections across z, whose area is exact, by
+/// tanh-sinh quadrature (Takahasi & Mori 1974) between the heights at which the section changes its shape.
 pub fn ball_fraction(radius: f64, centre: DVec3) -> f64 {
     let (low, high) = (centre - 0.5, centre + 0.5);
     if DVec3::ZERO.clamp(low, high).length() >= radius {
@@ -101,14 +101,14 @@ pub fn ball_fraction(radius: f64, centre: DVec3) -> f64 {
     heights.windows(2).map(part).sum()
 }
 
-/// The integral of `f` between two ends, at which it may behave as a root.
+/// The integral of `f` between two ends, where it may behave as a root.
 fn tanh_sinh([a, b]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     const STEP: f64 = 1.0 / 12.0;
     let half = 0.5 * (b - a);
     let sum = (-40..=40).map(|k| {
         let t = STEP * f64::from(k);
         let s = FRAC_PI_2 * t.sinh();
-        // From the end that is nearer.
+        // Distance from the nearer end.
         let away = half * (-s.abs()).exp() / s.cosh();
         let at = if s < 0.0 { a + away } else { b - away };
         FRAC_PI_2 * t.cosh() / s.cosh().powi(2) * f(at)
@@ -116,8 +116,8 @@ fn tanh_sinh([a, b]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     STEP * half * sum.sum::<f64>()
 }
 
-/// Area of the disc about the axis z whose radius squared is `square`, within a rectangle: the sum over its edges of the
-/// disc within the triangle of edge and axis.
+/// Area of the disc about the axis z with the squared radius `square`, within a rectangle: the sum over its edges of the disc
+/// within the triangle of edge and axis.
 fn section(square: f64, low: DVec3, high: DVec3) -> f64 {
     let corners = [
         DVec2::new(low.x, low.y),
@@ -181,7 +181,7 @@ fn shares_of_balls_are_exact() {
         ball_fraction(0.6, DVec3::ZERO),
         volume(0.6) - 6.0 * cap(0.6, 0.1),
     );
-    // Those of all cells are the ball.
+    // The sum over all cells is the ball.
     let at = DVec3::new(0.13, -0.31, 0.27);
     for radius in [0.55, 1.7, 3.2] {
         let range = || (-4..=4).map(f64::from);
@@ -190,7 +190,7 @@ fn shares_of_balls_are_exact() {
         let sum: f64 = cells.map(|cell| ball_fraction(radius, cell + at)).sum();
         assert_relative(sum, volume(radius), 1e-13);
     }
-    // So far from its centre that the surface is a plane, to 1 / 8R.
+    // So far from the centre that the surface is a plane, up to 1 / 8R.
     let share = ball_fraction(1e3, DVec3::new(0.0, 0.0, 1e3 - 0.1));
     let mean_sagitta = 1.0 / (6.0 * 2e3);
     assert_near(share, 0.6 - mean_sagitta, 1e-8);

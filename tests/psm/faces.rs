@@ -13,21 +13,21 @@ use riprap::{
     psm::{FACE_LOAD, FaceJob, NEAR, PLANES, Tile, Walk, constants, reduce_faces, sum_faces},
 };
 
-/// Of the fluid, cells² a step.
+/// Viscosity of the fluid, cells² per step.
 const VISCOSITY: f64 = 0.07;
 
-/// Parts and what a step of the fluid would leave in their cells.
+/// Parts, and a state of the fluid in their cells as after a step.
 struct Case {
     tiling: Tiling,
     moving: Vec<Moving>,
     shares: Vec<f32>,
     saturation: Vec<f32>,
-    /// Parts that ask.
+    /// Parts whose face loads are requested.
     asked: Vec<u32>,
 }
 
 impl Case {
-    /// `solid_fractions` as they may be; or exact ones, with fluid around, all of it at a density of 1.03.
+    /// Random solid fractions; or the given exact ones, with fluid around them of density 1.03 everywhere.
     fn new(tiling: Tiling, shares: Option<Vec<f32>>, noise: &mut Random) -> Self {
         let blocks = tiling.placed.iter().map(|p| p.block).max().unwrap() + 1;
         let near = tiling.placed[0].centre;
@@ -70,14 +70,14 @@ impl Case {
         }
     }
 
-    /// Face by face: part, number of the face.
+    /// All requested faces: part, index of the face.
     fn faces(&self) -> impl Iterator<Item = (u32, u32)> {
         let faces = |part: &u32| self.tiling.parts[*part as usize].faces;
         let each = self.asked.iter().map(move |part| (*part, faces(part)));
         each.flat_map(|(part, faces)| (0..faces).map(move |face| (part, face)))
     }
 
-    /// Loads on each face, and the sums of the sizes of what adds up to them, 0 where that is exact.
+    /// Loads on each face, and the sums of the absolute values of their terms, 0 for exact ones.
     fn twin(&self) -> Vec<[(f64, f64); FACE_LOAD]> {
         let one = |(part, face)| {
             let mut all = [(0.0, 0.0); FACE_LOAD];
@@ -98,7 +98,7 @@ impl Case {
         self.faces().map(one).collect()
     }
 
-    /// The numbers of a cell and their sizes, if it is beside the face.
+    /// Terms of a cell and their absolute values, if it is next to the face.
     fn cell(&self, tile: &Tile, local: usize, face: usize) -> Option<[(f64, f64); FACE_LOAD]> {
         let placed = &self.tiling.placed[tile.part as usize];
         let point = centre(self.tiling.cell(tile, local)?);
@@ -120,7 +120,7 @@ impl Case {
             *n != tile.part as usize && other.block == self.tiling.parts[tile.part as usize].block
         });
         let siblings = siblings.map(|(_, other)| other);
-        // A thousandth of a cell over the face.
+        // A point a thousandth of a cell above the face.
         let over = foot + 1e-3 * normal;
         if siblings.clone().any(|other| {
             other
@@ -166,7 +166,7 @@ impl Case {
         Some(all)
     }
 
-    /// The same by the kernels.
+    /// The same, computed by the kernels.
     fn run(&self, walk: Walk, width: Option<u32>) -> Vec<f32> {
         let bench = Workbench::new(width);
         let (mut jobs, mut face_first) = (Vec::new(), vec![0]);
@@ -195,7 +195,7 @@ impl Case {
         let mut numbers = constants(&self.tiling.grid);
         numbers.push(("VISCOSITY", VISCOSITY));
         let program = reduce_faces(&self.tiling.grid, walk);
-        // One workgroup more than the jobs need.
+        // One workgroup more than the jobs require.
         let groups = walk.groups(jobs.len() as u32) as usize + 1;
         bench.run(&program, "reduce_faces", &numbers, &buffers, 64 * groups);
         let invocations = FACE_LOAD * (faces + 8);
@@ -210,7 +210,7 @@ impl Case {
     }
 }
 
-/// Compounds, whose parts lie in each other here, and blocks that do not ask.
+/// Compounds, whose parts overlap here, and blocks whose face loads are not requested.
 fn blocks(noise: &mut Random) -> Vec<Placed> {
     let shapes = [
         (0, cuboid(7.0, 5.0, 6.0)),
@@ -233,13 +233,13 @@ fn check(case: &Case, width: Option<u32>) {
         assert_eq!(found.len(), FACE_LOAD * expected.len());
         for (face, (found, expected)) in found.chunks(FACE_LOAD).zip(&expected).enumerate() {
             for (k, (found, (value, size))) in found.iter().zip(expected).enumerate() {
-                // f32 in each cell; heights have the rounding of places some 10 cells away.
+                // The error of f32 in each cell; heights have the rounding of positions some 10 cells away.
                 let error = (f64::from(*found) - value).abs();
                 assert!(error <= 3e-6 * size, "face {face}, {k}: {found} {value}");
             }
         }
     }
-    // The narrow sides of a slab may have none.
+    // The narrow sides of a slab may have no cell.
     let seen = expected
         .iter()
         .filter(|sums| sums[FACE_LOAD - 1].0 > 0.0)
@@ -262,7 +262,7 @@ fn loads_on_faces_are_sums_over_the_cells_beside_them() {
     }
 }
 
-/// A cell of fluid for each unit of area; exactly where faces lie along the grid, also within rounding of it.
+/// One cell of fluid per unit of area: exact for faces along the grid, also within rounding of it.
 #[test]
 fn the_layer_beside_a_face_has_its_area() {
     let mut noise = Random(40);

@@ -1,4 +1,4 @@
-//! A lattice with blocks beside its twin.
+//! A lattice with blocks, together with its twin.
 
 use kit::{
     Rig,
@@ -11,7 +11,7 @@ use riprap::{
     psm::PLANES,
 };
 
-/// Where the numbers of a slot are in the saturation: plane, element of the brick, lane.
+/// Index of a number in the saturation, by slot, plane, element of the brick and lane.
 pub fn place(grid: &Grid, slot: usize, plane: usize, local: usize, lane: usize) -> usize {
     ((slot * PLANES + plane) * workgroup(grid) + local) * grid.lanes as usize + lane
 }
@@ -35,7 +35,7 @@ pub fn cell_of(grid: &Grid, brick: u32, local: usize, lane: usize) -> Option<usi
     (inside && grid.contains(cell)).then(|| grid.index(cell))
 }
 
-/// All places of the slots of some bricks with their cells: slot, element, lane, cell.
+/// All elements of the slots of some bricks with their cells: slot, element, lane, cell.
 pub fn places(grid: &Grid, bricks: &[u32]) -> Vec<(usize, usize, usize, usize)> {
     let mut all = Vec::new();
     for (slot, &brick) in bricks.iter().enumerate() {
@@ -50,8 +50,8 @@ pub fn places(grid: &Grid, bricks: &[u32]) -> Vec<(usize, usize, usize, usize)> 
     all
 }
 
-/// Every kind of cell that blocks leave, at random; exactly the same in f32 and f64. The solid is as fast as the fluid,
-/// on whose populations the rounding depends.
+/// A random solid of every kind; exactly the same in f32 and f64. The solid is as fast as the fluid, since the rounding
+/// depends on its populations.
 fn random_solid(cell: usize) -> Solid {
     let unit = |n: usize| 0.5 + 0.5 * noise(1_000_003 * (n + 1) + cell);
     let coarse = |x: f64| (x * 1024.0).round() / 1024.0;
@@ -66,13 +66,13 @@ fn random_solid(cell: usize) -> Solid {
         7..=13 => (coarse(unit(1)).max(1.0 / 1024.0), false),
         14 => (1.0 / 1024.0, false),
         15 => (1.0, false),
-        // Two blocks in a cell, and one deep in another.
+        // Two blocks in a cell, and one of them deep in another.
         16 => (1.0 + coarse(unit(1)), false),
         17 => (1.0 + coarse(unit(1)), true),
         18 => (1.0, false),
         _ => (1.0, true),
     };
-    // Parts that are flush with each other have more shares than their planes leave.
+    // Flush parts have more shares than their planes leave.
     let flush = unit(6) > 0.5 && !deep;
     let fraction = f64::min(if flush { coarse(0.8 * shares) } else { shares }, 1.0);
     let shared = unit(5) > 0.5 && !deep;
@@ -88,7 +88,7 @@ fn random_solid(cell: usize) -> Solid {
     }
 }
 
-/// Planes 0 to 3, and the last one, of a solid as the layout says.
+/// Planes 0 to 3, and the last one, of a solid in the layout of the saturation.
 pub fn planes(solid: &Solid) -> [(usize, f32); 5] {
     let mark = match solid {
         Solid { beside: true, .. } => -1.0,
@@ -104,7 +104,7 @@ pub fn planes(solid: &Solid) -> [(usize, f32); 5] {
     all.map(|(plane, value)| (plane, value as f32))
 }
 
-/// A lattice and its twin, in the same state.
+/// A lattice and its twin in the same state.
 pub struct Subject {
     pub rig: Rig,
     pub setup: Setup,
@@ -113,7 +113,7 @@ pub struct Subject {
 }
 
 impl Subject {
-    /// With random populations, in buffers that held NaN.
+    /// A subject with random populations, in buffers that held NaN.
     pub fn new(setup: &Setup) -> Self {
         let rig = Rig::new();
         let mut twin = twin_of(setup);
@@ -131,7 +131,7 @@ impl Subject {
         }
     }
 
-    /// Bricks that hold fluid, about two in three of them, in no order.
+    /// About two in three of the bricks that hold fluid, in no order.
     pub fn some_bricks(&self) -> Vec<u32> {
         let geometry = self.lattice.geometry();
         let all = geometry
@@ -147,12 +147,12 @@ impl Subject {
         some
     }
 
-    /// Random solids in the cells of these bricks.
+    /// Puts random solids in the cells of these bricks.
     pub fn fill(&mut self, bricks: &[u32]) {
         self.fill_with(bricks, random_solid);
     }
 
-    /// The solids that `of` gives in the cells of these bricks.
+    /// Puts the solids `of` the cells in these bricks.
     pub fn fill_with(&mut self, bricks: &[u32], of: impl Fn(usize) -> Solid) {
         let grid = *self.lattice.grid();
         let (device, queue) = (&self.rig.device, &self.rig.queue);
@@ -191,7 +191,7 @@ impl Subject {
         worst
     }
 
-    /// What the fluid kernel left of the saturation.
+    /// The saturation after the fluid kernel.
     pub fn psm_planes(&self) -> Vec<f32> {
         let buffer = self.lattice.psm_planes().next().unwrap().1;
         let count = (buffer.size() / 4) as usize;
@@ -202,8 +202,8 @@ impl Subject {
             .unwrap()
     }
 
-    /// Largest error of B and of the force on one of two blocks in a cell, over the cells of these bricks; the twin is
-    /// where the last step began.
+    /// Largest error of B and of the force on one of two blocks in a cell, over the cells of these bricks; the twin must be at
+    /// the start of the last step.
     pub fn force_error(&self, bricks: &[u32]) -> f64 {
         let (grid, found) = (self.lattice.grid(), self.psm_planes());
         let nu_t = self.twin.nu_t();
@@ -225,7 +225,7 @@ impl Subject {
             }
             let tau = self.twin.config.tau_eff(nu_t[cell]);
             let weight = self.twin.weight(cell, tau);
-            // One of two blocks: three tenths of the solid, with a velocity of its own; a law of the wall is for one block.
+            // One of two blocks: three tenths of the solid, with its own velocity; a wall law is only for one block.
             let part = 0.3 * solid.shares;
             let differs = solid.shared || self.setup.wall_model.is_none();
             let own = |a| 0.01 * f64::from(u8::from(differs)) * noise(3 * cell + a);

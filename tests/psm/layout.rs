@@ -1,4 +1,4 @@
-//! What the host writes lies as the kernels have it.
+//! Data that the host writes have the layout of the kernels.
 
 use crate::tiling::grid;
 use riprap::{
@@ -61,7 +61,7 @@ fn structures() {
     check::<FaceJob>(&linked.module, "FaceJob", &job).unwrap();
 }
 
-/// The marks and sizes that both sides know by name.
+/// The marks and sizes that both sides define by name.
 #[test]
 fn constants() {
     let there = |name: &str| -> f32 {

@@ -1,4 +1,4 @@
-//! What must change no bit.
+//! Changes of a setup that must leave results bitwise equal, or equal up to rounding.
 
 use crate::fixture::Subject;
 use kit::{
@@ -11,14 +11,14 @@ fn bits(subject: &mut Subject) -> Vec<u32> {
     let end = subject.rig.populations(&mut subject.lattice);
     let solid = subject.twin.domain.solid.iter().cycle();
     let cells = end.values.iter().zip(solid);
-    // What lies in solids is nobody's.
+    // The content of solid cells is undefined.
     cells
         .filter(|(_, solid)| !**solid)
         .map(|(f, _)| f.to_bits())
         .collect()
 }
 
-/// Walls, WALE and a force of each cell.
+/// Walls, WALE and a force per cell.
 fn busy(storage: Storage, lanes: u32) -> Setup {
     let mut setup = walled(lanes, storage);
     setup.brick = [4, 4, 2];
@@ -31,8 +31,8 @@ fn busy(storage: Storage, lanes: u32) -> Setup {
     setup
 }
 
-/// To the rounding of one step: compilers may multiply constants beforehand, which they cannot where a solid fraction
-/// comes between them, so that the bits differ.
+/// Up to the rounding of one step: compilers may fold constants, which a solid fraction between them prevents, so that the
+/// bits differ.
 #[test]
 fn bricks_that_hold_no_block_give_what_the_plain_kernel_gives() {
     let mut periodic = Setup::periodic([5, 7, 4], 0.01);
@@ -45,7 +45,7 @@ fn bricks_that_hold_no_block_give_what_the_plain_kernel_gives() {
         plain.solid_operator = Some(SolidOperator::Holdych);
         let mut with = Subject::new(&plain);
         let listed = with.some_bricks();
-        // None listed at first, then some, then none again.
+        // First no bricks listed, then some, then none again.
         for (bricks, steps) in [(&[][..], 2), (&listed[..], 3), (&[], 2)] {
             let (device, queue) = (&with.rig.device, &with.rig.queue);
             with.lattice.set_psm_bricks(device, queue, bricks).unwrap();

@@ -1,4 +1,4 @@
-//! Blocks that [`SolidCells`] puts into the fluid, against the twin with exact solid fractions.
+//! Blocks placed in the fluid by [`SolidCells`], compared with the twin with exact solid fractions.
 
 use crate::{
     effective::{effective_hull, together},
@@ -18,7 +18,7 @@ use riprap::{
 };
 use std::{collections::BTreeSet, sync::Arc};
 
-/// A box along the axes, so that its share of a cell is a product, in lattice units.
+/// A box along the axes, whose share of a cell is a product, in lattice units.
 #[derive(Clone, Copy)]
 struct Cuboid {
     centre: DVec3,
@@ -32,14 +32,14 @@ impl Cuboid {
         Pose::rigid(self.centre, DQuat::IDENTITY, self.velocity, self.spin)
     }
 
-    /// Part of the cell at `centre` that lies inside.
+    /// Fraction of the cell at `centre` that lies inside.
     fn share(&self, centre: DVec3) -> f64 {
         let low = (centre - 0.5).max(self.centre - 0.5 * self.size);
         let high = (centre + 0.5).min(self.centre + 0.5 * self.size);
         (high - low).max(DVec3::ZERO).element_product()
     }
 
-    /// The same for the weight of the solid.
+    /// The effective fractions for the weight of the solid.
     fn effective(&self, centre: DVec3, weight: SolidWeight) -> [f64; 2] {
         let share = self.share(centre);
         if weight == SolidWeight::Standard {
@@ -53,7 +53,7 @@ impl Cuboid {
         effective_hull(&faces.collect::<Vec<_>>(), centre - self.centre, share)
     }
 
-    /// Whether all of the box of half width `reach` around `centre` lies inside, or any of it.
+    /// Whether all of the box of half width `reach` around `centre` lies inside.
     fn holds(&self, centre: DVec3, reach: f64) -> bool {
         ((centre - self.centre).abs() + reach)
             .cmple(0.5 * self.size)
@@ -66,7 +66,7 @@ impl Cuboid {
             .all()
     }
 
-    /// Whether a side of the cell at `centre` lies on the box, and its middle in one of the faces.
+    /// Whether a side of the cell at `centre` lies on the surface of the box, with its middle in one of the faces.
     fn borders(&self, centre: DVec3) -> bool {
         let over = (centre - self.centre).abs() - 0.5 * self.size;
         let on = |axis: usize| {
@@ -81,7 +81,7 @@ impl Cuboid {
     }
 }
 
-/// Centres of a cell and of its images across periodic borders.
+/// Centres of a cell and of its images across periodic boundaries.
 fn images(cells: [usize; 3], periodic: [bool; 3], cell: usize) -> Vec<DVec3> {
     let [nx, ny, _] = cells;
     let at = DVec3::from_array([cell % nx, cell / nx % ny, cell / (nx * ny)].map(|n| n as f64));
@@ -101,7 +101,7 @@ fn images(cells: [usize; 3], periodic: [bool; 3], cell: usize) -> Vec<DVec3> {
     all
 }
 
-/// What some boxes leave of a cell.
+/// The solid of some boxes in a cell.
 fn solid_of(boxes: &[Cuboid], centres: &[DVec3], weight: SolidWeight) -> Solid {
     let mut flux = DVec3::ZERO;
     let mut parts = Vec::new();
@@ -131,7 +131,7 @@ fn solid_of(boxes: &[Cuboid], centres: &[DVec3], weight: SolidWeight) -> Solid {
         solid.velocity = (flux / solid.shares).to_array();
     }
     if solid.tight > 0.0 {
-        // Those that touch it count as one each where it is closed.
+        // In a closed joint, boxes that touch the cell count as one each.
         let mut all = solid.shares;
         for (block, &x) in boxes
             .iter()
@@ -162,7 +162,7 @@ fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<
                     continue;
                 }
                 let r = x - block.centre;
-                // Where blocks meet the mean counts.
+                // If blocks meet, their mean velocity is used.
                 let tight = twin.blocks.as_ref().unwrap().1[cell].tight;
                 let own = block.velocity_at(x);
                 let velocity = own.lerp(solid.velocity.into(), tight).to_array();
@@ -182,7 +182,7 @@ fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<
     loads
 }
 
-/// Largest difference of two loads; moments over the length of a block.
+/// Largest difference of two loads; moments relative to the length of a block.
 fn distance(a: &Load, b: &Load, length: f64) -> f64 {
     let moments = [
         (a.moment - b.moment)
@@ -272,7 +272,7 @@ fn assert_equal_to_twin(name: &str, setup: &Setup, boxes: &[Cuboid], limit: f64)
     }
 }
 
-/// One block over a periodic corner, so thick that it has deep cells, and one that overlaps it.
+/// One block over a periodic corner, thick enough to have deep cells, and one that overlaps it.
 #[test]
 fn blocks_across_periodic_borders_that_overlap() {
     let mut setup = Setup::periodic([11, 9, 8], 0.02);
@@ -299,7 +299,7 @@ fn blocks_across_periodic_borders_that_overlap() {
     assert_equal_to_twin("standard weight", &setup, &boxes, limit(&setup));
 }
 
-/// Blocks that reach through walls and through a static solid, beside a velocity face.
+/// Blocks that extend through walls and through a static solid, next to a velocity face.
 #[test]
 fn blocks_through_walls_and_solids() {
     let mut setup = walled(2, Storage::F16);

@@ -1,4 +1,4 @@
-//! The kernels are valid in all variants, and bind what they need and nothing else.
+//! The kernels are valid in all variants, and bind exactly what they need.
 
 use riprap::{
     gpu::{kernel::bindings, link::Program},
@@ -19,7 +19,7 @@ fn names(program: &Program, entry: &str) -> String {
     names.join(" ")
 }
 
-/// WebGPU promises 8 storage buffers.
+/// WebGPU guarantees 8 storage buffers.
 #[test]
 fn bindings_by_name() {
     let grid = Grid {

@@ -1,4 +1,4 @@
-//! Loads on blocks from what the fluid leaves in each cell.
+//! Loads on blocks, summed over the exchange with the fluid in each cell.
 
 use crate::{
     combine_solids::{Moving, crowd, random_effective, random_shares},
@@ -12,7 +12,7 @@ use riprap::psm::{
 
 const BLOCKS: u32 = 9;
 
-/// Blocks in a grid, and what a step of the fluid would leave in it.
+/// Blocks in a grid, and a state of the fluid as after a step.
 struct Case {
     tiling: Tiling,
     moving: Vec<Moving>,
@@ -36,7 +36,7 @@ impl Case {
         let effective = random_effective(&shares, &mut noise);
         let size = tiling.workgroup() * PLANES * lanes as usize;
         let mut saturation = vec![f32::from_bits(POISON); tiling.slots as usize * size];
-        // Cells without solid stay poison.
+        // Cells without solid stay poisoned.
         for (number, tile) in tiling.tiles.iter().enumerate() {
             for local in 0..tiling.workgroup() {
                 if effective[number * tiling.workgroup() + local][0] <= 0.0 {
@@ -56,7 +56,7 @@ impl Case {
                         FACING_SUM
                     };
                     saturation[at(0)] = sum + if joint { closed } else { shared };
-                    // Nobody may use the mean velocity elsewhere.
+                    // Elsewhere the mean velocity must not be used.
                     for plane in 1..4 {
                         let any = 0.1 * noise.unit() as f32;
                         saturation[at(plane)] = if joint { any } else { f32::NAN };
@@ -78,7 +78,7 @@ impl Case {
         }
     }
 
-    /// What each block must feel, and the sum of the sizes of what adds up to it.
+    /// Expected loads of each block, and the sum of the absolute values of their terms.
     fn twin(&self) -> Vec<[(f64, f64); WRENCH]> {
         let tiling = &self.tiling;
         let mut all = vec![[(0.0, 0.0); WRENCH]; BLOCKS as usize];
@@ -96,7 +96,7 @@ impl Case {
                 let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
                 let own = moving.at(point);
                 let mean = DVec3::new(at(1), at(2), at(3));
-                // Both of its marks lie below that of an open one.
+                // Both marks of a joint are below that of an open shared cell.
                 let u = match at(0) - f64::from(JOINT_SUM) {
                     sum if (0.0..16.0).contains(&sum) => {
                         own.lerp(mean, ((sum % 8.0 - 0.9) / 0.098).clamp(0.0, 1.0))
@@ -127,7 +127,7 @@ impl Case {
         all
     }
 
-    /// Tiles of each block in segments of at most `most`, and the segments before each block, and all.
+    /// Tiles of each block in segments of at most `most`, and the number of segments before each block, and of all.
     fn segments(&self, most: usize) -> (Vec<u32>, Vec<u32>) {
         let (mut segments, mut block_first) = (Vec::new(), vec![0]);
         for ends in self.tiling.by_block(BLOCKS).windows(2) {
@@ -142,7 +142,7 @@ impl Case {
         (segments, block_first)
     }
 
-    /// Wrenches by the kernels.
+    /// Wrenches computed by the kernels.
     fn run(&self, width: Option<u32>, walk: Walk, most: usize) -> Vec<f32> {
         let bench = Workbench::new(width);
         let motions: Vec<_> = self.moving.iter().map(Moving::on_device).collect();
@@ -151,7 +151,7 @@ impl Case {
         segments.extend([u32::MAX; 3]);
         let partials = bench.poisoned(WRENCH * (count + 3));
         let wrenches = bench.poisoned(WRENCH * (BLOCKS as usize + 1));
-        // Tiles of an earlier, longer list lie behind those that count.
+        // The list is followed by tiles of an earlier, longer one.
         let mut listed = self.tiling.tiles.clone();
         listed.extend([self.tiling.tiles[0]; 3]);
         let buffers = [

@@ -1,4 +1,4 @@
-//! Polyhedra for tests, lengths in cells.
+//! Polyhedra for tests, in cells.
 
 use crate::tiling::rotation;
 use glam::{DQuat, DVec3, Vec3Swizzles};
@@ -25,7 +25,7 @@ pub fn tetrahedron(edge: f64) -> Polyhedron {
     of(normals, edge / 24f64.sqrt())
 }
 
-/// A regular one, the given length between opposite faces.
+/// A regular one with the given distance between opposite faces.
 pub fn icosahedron(across: f64) -> Polyhedron {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let signs = [-1.0, 1.0];
@@ -40,7 +40,7 @@ pub fn icosahedron(across: f64) -> Polyhedron {
     of(normals, across / 2.0)
 }
 
-/// Tangent planes of a ball in `faces` directions that are nowhere dense.
+/// Tangent planes of a ball in `faces` evenly spread directions.
 pub fn pebble(faces: usize, radius: f64) -> Polyhedron {
     // Points on a spiral with the golden angle.
     let turn = std::f64::consts::PI * (3.0 - 5f64.sqrt());
@@ -53,7 +53,7 @@ pub fn pebble(faces: usize, radius: f64) -> Polyhedron {
     of(normals, radius)
 }
 
-/// Rotations that are random, and those in which planes lie along the grid or through its edges.
+/// Random rotations, and those in which planes lie along the grid or through its edges.
 pub fn rotations(random: usize, noise: &mut Random) -> Vec<DQuat> {
     let eighth = std::f64::consts::FRAC_PI_4;
     let mut all = vec![

@@ -1,4 +1,4 @@
-//! Blocks that move on from where their tiles were found: what is not looked at again has not changed.
+//! Blocks that move on from the poses of their last tile search: skipped cells have not changed.
 
 use glam::{DQuat, DVec3};
 use kit::Rig;
@@ -61,7 +61,7 @@ impl World {
         }
     }
 
-    /// Of each saturated brick, by its number, the sum of the shares and the velocity in all cells.
+    /// Sum of the shares and velocity in all cells of each saturated brick, by the index of the brick.
     fn saturation(&mut self, poses: &[Pose]) -> BTreeMap<u32, Vec<f32>> {
         let (device, queue) = (&self.rig.device, &self.rig.queue);
         let placed = self.immersed.place(device, queue, &mut self.lattice, poses);
@@ -86,7 +86,7 @@ impl World {
     }
 }
 
-/// Through a periodic border, and turning so fast that corners go farther than centres.
+/// Poses through a periodic boundary, with rotations so fast that corners move farther than centres.
 fn poses(step: u32) -> Vec<Pose> {
     let t = f64::from(step);
     let pose = |at: DVec3, velocity: DVec3, turn: f64| {
@@ -135,7 +135,7 @@ fn blocks_that_move_have_the_cells_of_blocks_that_are_put_there() {
             bricks += put.len();
             let all: BTreeSet<u32> = put.keys().chain(found.keys()).copied().collect();
             for number in all {
-                // Both have bricks that a block may come to reach.
+                // Both lists include bricks that a block may reach later.
                 let [found, put] = [&found, &put].map(|bricks| bricks.get(&number));
                 let nothing = |cells: &Vec<f32>| cells.iter().all(|x| *x == 0.0);
                 let same = match (found, put) {

@@ -1,4 +1,4 @@
-//! Parts on a grid, cut into tiles one after the other: slow, and plain enough to be right.
+//! Parts on a grid, cut into tiles one after the other: a slow but simple reference.
 
 use glam::{DQuat, DVec3};
 use kit::Random;
@@ -20,7 +20,7 @@ pub fn rotation(random: &mut Random) -> DQuat {
 #[derive(Clone, Debug)]
 pub struct Placed {
     pub centre: DVec3,
-    /// About the centre; none: a ball.
+    /// Faces relative to the centre; none for a ball.
     pub faces: Vec<HalfSpace>,
     pub radius: f64,
     pub low: DVec3,
@@ -65,7 +65,7 @@ pub fn centre(cell: [i32; 3]) -> DVec3 {
     DVec3::from_array(cell.map(f64::from)) + 0.5
 }
 
-/// Whole cells and the rest.
+/// Splits a position into whole cells and the rest.
 pub fn split(at: DVec3) -> ([i32; 3], [f32; 3]) {
     let base = at.floor();
     (
@@ -87,7 +87,7 @@ pub fn grid(cells: [u32; 3], lanes: u32, brick: [u32; 3]) -> Grid {
 
 pub struct Tiling {
     pub grid: Grid,
-    /// Cell of the domain's first one in the coordinates of the parts.
+    /// First cell of the domain in the coordinates of the parts.
     pub origin: [i32; 3],
     pub placed: Vec<Placed>,
     pub parts: Vec<Part>,
@@ -96,7 +96,7 @@ pub struct Tiling {
     pub slots: u32,
 }
 
-/// Tiles wherever a part is nearer to a brick than two cells.
+/// Tiles exist wherever a part is nearer to a brick than two cells.
 const REACH: f64 = 2.0;
 
 impl Tiling {
@@ -147,8 +147,7 @@ impl Tiling {
         let first = [0, 1, 2].map(|a| at[a] * grid.brick[a]);
         let slices = grid.elements[2];
         let lowest = [first[0], first[1], first[2] + lane * slices];
-        // Elements of the brick behind the last slice are not cells of the lane, cells behind the last
-        // one not of the domain.
+        // Elements of the brick after the last slice are not cells of the lane, cells after the last one not of the domain.
         let end = [
             grid.cells[0],
             grid.cells[1],
@@ -175,7 +174,7 @@ impl Tiling {
         self.grid.brick.iter().product::<u32>() as usize
     }
 
-    /// The cell at place `local` of a tile; none beyond the domain.
+    /// The cell of element `local` of a tile; `None` beyond the domain.
     pub fn cell(&self, tile: &Tile, local: usize) -> Option<[i32; 3]> {
         let [x, y, _] = self.grid.brick.map(|n| n as usize);
         let place = [local % x, local / x % y, local / (x * y)].map(|n| n as u32);
@@ -185,7 +184,7 @@ impl Tiling {
         here.then_some(cell)
     }
 
-    /// Lets the parts reach any stretch of their tiles.
+    /// Sets a random range of elements that the part of each tile can reach.
     pub fn shorten(&mut self, noise: &mut Random) {
         for tile in &mut self.tiles {
             let mut any = |most: u32| (noise.unit() * f64::from(most)) as u32;
@@ -194,14 +193,14 @@ impl Tiling {
         }
     }
 
-    /// Places that the part of a tile can reach.
+    /// Elements that the part of a tile can reach.
     pub fn reach(&self, tile: &Tile) -> std::ops::Range<usize> {
         let eighth = self.workgroup().div_ceil(8);
         let end = |bits: u32| eighth * (bits & 15) as usize;
         end(tile.inside >> 24)..end(tile.inside >> 28)
     }
 
-    /// The least stretch that holds what the parts can reach in a lane of a slot.
+    /// The smallest range that contains what the parts can reach in a lane of a slot.
     pub fn reach_of_lane(&self, slot: u32, lane: u32) -> std::ops::Range<usize> {
         let here = |tile: &&Tile| (tile.slot, tile.lane) == (slot, lane);
         let tiles = self.tiles.iter().filter(here);
@@ -217,7 +216,7 @@ impl Tiling {
         element * lanes + tile.lane as usize
     }
 
-    /// Tiles of each lane of a slot in ascending order, and where they begin.
+    /// Tiles of each lane of a slot in ascending order, and their first positions.
     pub fn by_lane(&self) -> (Vec<u32>, Vec<u32>) {
         let (mut first, mut list) = (vec![0], Vec::new());
         for lane in 0..self.slots * self.grid.lanes {
@@ -230,7 +229,7 @@ impl Tiling {
         (first, list)
     }
 
-    /// Tiles before each of `blocks` blocks, and all.
+    /// Number of tiles before each of `blocks` blocks, and of all.
     pub fn by_block(&self, blocks: u32) -> Vec<u32> {
         let before = |block| self.tiles.iter().filter(|t| t.block < block).count() as u32;
         (0..=blocks).map(before).collect()

@@ -8,8 +8,8 @@ use riprap::lattice::{
     Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage, WallModel,
 };
 
-/// Against the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights are 1 in sum:
-/// they have the rounding of those.
+/// Compares with the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights add up to 1,
+/// and have the rounding of those.
 fn assert_equal_to_twin(name: &str, setup: &Setup) {
     let mut subject = Subject::new(setup);
     let bricks = subject.some_bricks();
@@ -33,7 +33,7 @@ fn assert_equal_to_twin(name: &str, setup: &Setup) {
     }
 }
 
-/// Odd and prime sizes; z divides by the lanes, and there are bricks that stand over the border.
+/// Odd and prime sizes; z is divisible by the lanes, and some bricks extend over the border.
 fn box_of(nu: f64, operator: SolidOperator) -> Setup {
     let mut setup = Setup::periodic([5, 7, 4], nu);
     setup.solid_operator = Some(operator);
@@ -64,7 +64,7 @@ fn operators_collisions_and_equilibria() {
     }
 }
 
-/// From almost no viscosity to more than is of use, and with the weight of the paper.
+/// From almost no viscosity to more than is useful, and with the weight of the paper.
 #[test]
 fn weights_at_any_viscosity() {
     for nu in [1e-6, 0.01, 0.5] {
@@ -84,7 +84,7 @@ fn weights_at_any_viscosity() {
     assert!(error.contains("solid_weight"), "{error}");
 }
 
-/// (1/s − ½)(τ − ½) = Λ asks for less than the floor at this viscosity; the second has one Λ for all cells.
+/// (1/s − ½)(τ − ½) = Λ would give less than the floor at this viscosity; the second setup has one Λ for all cells.
 #[test]
 fn odd_rates_beside_blocks_have_a_floor_and_one_magic_rate_has_none() {
     let mut setup = box_of(0.004, SolidOperator::Holdych);
@@ -109,7 +109,7 @@ fn layouts_with_walls_beside_blocks_and_everything_on() {
         (Storage::F16, (2, 1), 3, [4, 2, 4], SolidOperator::Holdych),
         (Storage::F16, (4, 2), 2, [8, 4, 1], SolidOperator::Holdych),
     ];
-    // All but the populations takes up to seven bindings, of the 10 that SwiftShader has.
+    // Everything except the populations takes up to seven bindings, of the 10 that SwiftShader has.
     let most = Rig::new()
         .device
         .limits()
@@ -137,7 +137,7 @@ fn layouts_with_walls_beside_blocks_and_everything_on() {
     }
 }
 
-/// A restart has the same bits; `fill` puts the solids in.
+/// Asserts that a restart is bitwise equal; `fill` sets the solids.
 fn assert_restarts(subject: &mut Subject, fill: impl Fn(&mut Subject)) {
     let state = subject.rig.populations(&mut subject.lattice);
     let mut again = Subject::new(&subject.setup);
@@ -154,7 +154,7 @@ fn assert_restarts(subject: &mut Subject, fill: impl Fn(&mut Subject)) {
     assert!(ends[0] == ends[1], "{:?}", again.setup.storage);
 }
 
-/// Where blocks are near, walls have no model.
+/// Walls near blocks have no wall model.
 #[test]
 fn a_wall_model_beside_blocks() {
     for (storage, lanes, axis, brick) in [
@@ -182,7 +182,7 @@ fn a_wall_model_beside_blocks() {
                 "{storage:?}, {lanes} lanes: {error:e}"
             );
         }
-        // Which walls have blocks near them is of the step before.
+        // The walls with blocks near them are those of the previous step.
         assert_restarts(&mut subject, |again| again.fill(&bricks));
         let (device, queue) = (&subject.rig.device, &subject.rig.queue);
         let walls = subject
@@ -198,8 +198,8 @@ fn a_wall_model_beside_blocks() {
     }
 }
 
-/// A plate that moves, with a step on it and a face that leaves the grid a little, from this fraction of a cell on; beyond a hole in it,
-/// where no brick is listed, are edges.
+/// A moving plate, with a step on it and a face that is slightly inclined to the grid, starting at the fraction `first` of a
+/// cell; a hole in it, where no brick is listed, has edges.
 fn plate([nx, ny]: [usize; 2], first: f64, cell: usize) -> Solid {
     let (x, y) = (cell % nx, cell / nx % ny);
     let step = usize::from((5..8).contains(&x));
@@ -228,7 +228,7 @@ fn friction_of_blocks() {
         (Storage::F16, 2, 2),
     ];
     for (n, (storage, lanes, axis)) in layouts.into_iter().enumerate() {
-        // From no part of the law to all of it.
+        // From none of the law to all of it.
         for (nu, first) in [(3e-3, 0.4375), (2e-5, 0.9375), (1e-6, 0.4375)] {
             let mut setup = Setup::periodic([13, 16, 12], nu);
             setup.faces[2] = [Face::Wall([0.0; 3]), Face::FreeSlip];
@@ -259,7 +259,7 @@ fn friction_of_blocks() {
     }
 }
 
-/// Those that the lattice lists, and those of its twin.
+/// Asserts that the lattice lists the same faces as its twin.
 fn assert_equal_faces(name: &str, subject: &Subject) {
     let (device, queue) = (&subject.rig.device, &subject.rig.queue);
     let found = subject.lattice.block_faces(device, queue);

@@ -13,13 +13,13 @@ use riprap::{
     psm::{Forms, INTERIOR, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},
 };
 
-/// c of the exact weight, cells².
+/// Constant c of the exact weight, cells².
 pub const GROWTH: f64 = 0.4;
 
-/// The shares of the listed tiles, the same bits however their cells are gone through; what is not listed stays poison.
+/// The shares of the listed tiles, bitwise equal for both kinds of walk; those of tiles that are not listed stay poisoned.
 fn run(bench: &Workbench, tiling: &Tiling, work: &[u32]) -> Vec<f32> {
     let [shares, effective] = both(bench, tiling, work, SolidWeight::Standard);
-    // With the weight of the paper the effective fraction is that of the volume.
+    // With the weight of the paper the effective fraction is the solid fraction.
     let poison = |value: f32| value.to_bits() == POISON;
     let equal = |(share, effective): (&f32, &[f32])| {
         let equal = |e: &f32| (poison(*share) && poison(*e)) || share.clamp(0.0, 1.0) == *e;
@@ -29,7 +29,7 @@ fn run(bench: &Workbench, tiling: &Tiling, work: &[u32]) -> Vec<f32> {
     shares
 }
 
-/// Shares and effective fractions, two a cell.
+/// Shares and effective fractions, two per cell.
 pub fn both(
     bench: &Workbench,
     tiling: &Tiling,
@@ -52,7 +52,7 @@ fn walked(
 ) -> [Vec<f32>; 2] {
     let cells = tiling.tiles.len() * tiling.workgroup();
     let (shares, effective) = (bench.poisoned(cells), bench.poisoned(2 * cells));
-    // A list without an entry yet, in memory full of rubbish.
+    // A list without an entry yet, in poisoned memory.
     let mut list = vec![POISON; cells + 1];
     list[0] = 0;
     let edges = bench.buffer(&list);
@@ -81,7 +81,7 @@ pub fn all(bench: &Workbench, tiling: &Tiling) -> Vec<f32> {
     run(bench, tiling, &work)
 }
 
-/// 0..1 from a share and its marks.
+/// Solid fraction from a share and its marks.
 pub fn fraction(share: f32) -> f64 {
     f64::from(share.clamp(0.0, 1.0))
 }
@@ -90,7 +90,7 @@ fn sum(shares: &[f32]) -> f64 {
     shares.iter().map(|s| fraction(*s)).sum()
 }
 
-/// Height over a hull's highest face in half widths of a cell, and that half width.
+/// Height above a hull's highest face in half widths of a cell, and that half width.
 fn highest(placed: &Placed, r: DVec3) -> (f64, f64) {
     let heights = placed.faces.iter().map(|face| {
         let w = face.normal.abs().element_sum() / 2.0;
@@ -99,9 +99,9 @@ fn highest(placed: &Placed, r: DVec3) -> (f64, f64) {
     heights.fold((f64::MIN, 0.0), |a, b| if b.0 > a.0 { b } else { a })
 }
 
-/// What the marks of a cell must be; `exact` is its solid fraction.
+/// Checks the marks of a cell; `exact` is its solid fraction.
 fn check_marks(placed: &Placed, r: DVec3, share: f32, exact: f64) {
-    // Within rounding of a limit either is right.
+    // Within rounding of a limit either mark is correct.
     const EDGE: f64 = 1e-4;
     let around = |layers: f64| r.abs() + layers + 0.5;
     let beside = |layers: f64| (r.abs() - layers - 0.5).max(DVec3::ZERO).length();
@@ -134,13 +134,13 @@ fn check_marks(placed: &Placed, r: DVec3, share: f32, exact: f64) {
     }
 }
 
-/// f32, over the few dozen terms of a cell's volume.
+/// Rounding error of f32 over the few dozen terms of a cell's volume.
 const ROUNDING: f64 = 2e-6;
-/// The same where a face of the part is almost parallel to one of the cell: what the kernel neglects.
+/// The same if a face of the part is almost parallel to one of the cell, which the kernel neglects.
 const ALMOST_PARALLEL: f64 = 1e-4;
 
-/// Columns: at an edge of the part their lengths have a kink. Between columns 1/8 apart a change of slope
-/// by 2 costs 2/8/8² of a cell at most; faces that are steep on the columns, and several edges, more.
+/// Error of the columns: at an edge of the part their lengths have a kink. Between columns 1/8 apart a change of slope by 2
+/// costs at most 2/8/8² of a cell; faces that are steep relative to the columns, and several edges, cost more.
 const COLUMNS: f64 = 1e-2;
 
 /// Faces that cut the cell about r.
@@ -149,7 +149,7 @@ fn cuts(placed: &Placed, r: DVec3) -> usize {
     placed.faces.iter().filter(cut).count()
 }
 
-/// Every cell of every tile; `most` is the largest error of a fraction.
+/// Checks every cell of every tile; `most` is the largest error of a fraction.
 fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
     let mut worst = 0f64;
     for (tile, shares) in tiling.tiles.iter().zip(shares.chunks(tiling.workgroup())) {
@@ -179,7 +179,7 @@ fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
     worst
 }
 
-/// Grids whose bricks, lanes and ends fit in no way, about `size` cells an axis.
+/// Grids whose sizes are no multiples of bricks and lanes, about `size` cells along an axis.
 fn grids(size: u32) -> [riprap::lattice::Grid; 4] {
     [
         grid([size; 3], 1, [4, 4, 4]),
@@ -189,7 +189,7 @@ fn grids(size: u32) -> [riprap::lattice::Grid; 4] {
     ]
 }
 
-/// Cells beside the faces of a cube along the grid, to within a thousandth of a cell, and not those beside its edges.
+/// Cells next to the faces of a cube along the grid, to within a thousandth of a cell, and not those next to its edges.
 #[test]
 fn cells_that_touch_a_cube() {
     let bench = Workbench::new(None);
@@ -200,7 +200,7 @@ fn cells_that_touch_a_cube() {
         let tiling = Tiling::new(grid([12; 3], 1, [4, 4, 4]), [0; 3], placed);
         let shares = all(&bench, &tiling);
         let touching = shares.iter().filter(|share| **share == TOUCHES).count();
-        // A cube that is larger reaches into them.
+        // A larger cube reaches into them.
         let expected = if gap < 0.0 { 0 } else { faces * 16 };
         assert_eq!(touching, expected, "{gap}");
         check_cells(&tiling, &shares, ALMOST_PARALLEL);
@@ -244,7 +244,7 @@ fn each_cell_of_polyhedra() {
     assert!(worst > 0.0);
 }
 
-/// Faces that are almost along the grid and go through corners of cells, where f32 sees no difference.
+/// Faces that are almost along the grid and pass through corners of cells, below the resolution of f32.
 #[test]
 fn each_cell_of_a_cube_that_is_hardly_turned() {
     let bench = Workbench::new(None);
@@ -264,7 +264,7 @@ fn each_cell_of_a_cube_that_is_hardly_turned() {
     check_cells(&tiling, &all(&bench, &tiling), ALMOST_PARALLEL);
 }
 
-/// Nothing is done where a part cannot reach, unless the whole tile is asked for.
+/// Cells that a part cannot reach are skipped, unless the whole tile is requested.
 #[test]
 fn cells_out_of_reach_are_left_alone() {
     let bench = Workbench::new(None);
@@ -298,7 +298,7 @@ fn cells_out_of_reach_are_left_alone() {
     }
 }
 
-/// Far from the origin of the coordinates, as blocks beside a periodic face are, nothing is lost.
+/// Far from the origin of the coordinates, as for blocks next to a periodic face, no accuracy is lost.
 #[test]
 fn each_cell_far_from_the_origin() {
     let bench = Workbench::new(None);
@@ -310,7 +310,7 @@ fn each_cell_far_from_the_origin() {
     check_cells(&tiling, &all(&bench, &tiling), ROUNDING);
 }
 
-/// What quadrature along the edges of a cell leaves, and rounding.
+/// Error of the quadrature along the edges of a cell, and rounding.
 const BALLS: f64 = 5e-6;
 
 #[test]
@@ -321,7 +321,7 @@ fn balls() {
     let hardly_off = 0.5 + 1e-5 * (noise.point() - 0.5);
     let offsets = [DVec3::ZERO, corner, noise.point(), hardly_off];
     for (n, offset) in offsets.into_iter().enumerate() {
-        // The smaller ones are caps at the faces, edges or corners of a cell; 3 is where the rule changes.
+        // Smaller balls are caps at the faces, edges or corners of a cell; at 3 the rule changes.
         let radii = [0.5, 0.7, 0.8, 0.9, 1.3, 1.75, 2.999, 3.0, 5.0, 8.0];
         let ball =
             |radius: f64| Placed::ball(0, f64::from(radius as f32), DVec3::splat(9.0) + offset);
@@ -354,7 +354,7 @@ fn pieces_of_balls_of_any_size() {
             DVec3::new(0.0, 1.0, 1.0),
             DVec3::new(1.0, -1.0, 1.0),
             DVec3::new(1.0, 1e-4, -1e-4),
-            // The axis is near, or just not.
+            // The axis is near, or slightly too far.
             DVec3::new(radius.sqrt(), -1.0, radius),
             DVec3::new(0.7, radius, -0.7 * radius.sqrt()),
         ];
@@ -375,12 +375,12 @@ fn pieces_of_balls_of_any_size() {
     check_cells(&tiling, &all(&bench, &tiling), BALLS);
 }
 
-/// Cells that more faces cut than the exact rule takes.
+/// Cells cut by more faces than the exact rule handles.
 #[test]
 fn a_part_with_sixty_faces() {
     let bench = Workbench::new(None);
     let mut noise = Random(4);
-    // At 1.2 cells most cells have dozens of cuts, at 8 none has.
+    // At 1.2 cells most cells have dozens of cuts, at 8 none does.
     for (radius, most) in [(1.2, 2e-3), (3.0, 2e-4), (8.0, 2e-5)] {
         let shape = pebble(60, radius);
         assert_eq!(shape.faces().len(), 60);
@@ -395,7 +395,7 @@ fn a_part_with_sixty_faces() {
     }
 }
 
-/// The corner of eight cubes in the middle of a cell, in any orientation: together they fill each cell.
+/// The corner of eight cubes inside a cell, in any orientation: together they fill each cell.
 #[test]
 fn eight_cubes_fill_what_they_share() {
     let bench = Workbench::new(None);
@@ -421,7 +421,7 @@ fn eight_cubes_fill_what_they_share() {
                 }
             }
         }
-        // All cells that lie in the cube of the eight.
+        // All cells inside the cube of the eight.
         let mut shared = 0;
         for (cell, (sum, parts)) in sums {
             let r: DVec3 = rotation.inverse() * (centre(cell) - middle);
@@ -430,7 +430,7 @@ fn eight_cubes_fill_what_they_share() {
                 shared = shared.max(parts);
             }
         }
-        // The cell of the corner, unless its boundary is there.
+        // The cell of the corner, unless the corner is on its boundary.
         assert!(shared >= 4, "{shared}");
     }
 }
@@ -458,7 +458,7 @@ fn lists_of_any_length_and_fold() {
     let folded = all(&Workbench::new(Some(7)), &tiling);
     assert!(folded == whole);
     let bench = Workbench::new(None);
-    // Some, in any order, with places that are not used; more groups than jobs; nothing.
+    // Some tiles, in any order, with unused entries; more groups than jobs; no tile.
     let odd: Vec<u32> = (0..count).rev().filter(|n| n % 2 == 1).collect();
     let mut sparse = odd.clone();
     sparse.splice(3..3, [u32::MAX, u32::MAX]);
@@ -474,7 +474,7 @@ fn lists_of_any_length_and_fold() {
     }
 }
 
-/// A tile without a cell in the domain is all zero wherever the part is.
+/// A tile without a cell in the domain is all zero for any pose of the part.
 #[test]
 fn tiles_beyond_the_domain() {
     let placed = vec![Placed::ball(0, 6.0, DVec3::splat(4.0))];

@@ -1,4 +1,4 @@
-//! Affine bodies alone: their critical step, and the slope of their energy. Their motion is in `riprap validate`, dda.
+//! Affine bodies alone: critical step and gradient of the energy. `riprap validate`, dda, covers their motion.
 
 use glam::{DMat3, DVec3};
 use riprap::rock::{
@@ -38,13 +38,13 @@ fn norm(a: DMat3) -> f64 {
         .sqrt()
 }
 
-/// Numbers between −1 and 1 that look random: fractions of multiples of the golden ratio.
+/// Pseudo-random numbers between −1 and 1: fractions of multiples of the golden ratio.
 fn noise(seed: u32) -> DMat3 {
     let entry = |k: u32| 2.0 * (f64::from(9 * seed + k + 1) * 0.618_033_988_75).fract() - 1.0;
     DMat3::from_cols_array(&std::array::from_fn(|k| entry(k as u32)))
 }
 
-/// Largest eigenvalue of the nine-by-nine problem, by power iteration on M⁻¹K as it stands in textbooks:
+/// Largest eigenvalue of the nine-by-nine problem, by power iteration on M⁻¹K in its textbook form:
 /// K δF = V (λ tr ε · 1 + 2μ ε) with ε the symmetric part of δF, M δF = ρ δF C.
 fn largest_eigenvalue(edges: DVec3) -> f64 {
     let (lambda, mu) = (4e8, 4e8);
@@ -90,7 +90,7 @@ fn the_bound_of_the_frequency_holds_under_strain_and_stress() {
         let f = DMat3::IDENTITY + noise(seed) * 0.03;
         let bound = body.frequency_squared(f);
         let mut v = noise(seed + 50);
-        // −∂F̈/∂F is symmetric for S: power iteration, shifted so that no negative value is the largest.
+        // −∂F̈/∂F is symmetric with respect to S: power iteration, shifted so that no negative value is the largest.
         for _ in 0..200 {
             let h = 1e-6 / norm(v);
             let ahead = body.accelerations(f + v * h, &NONE).1;
@@ -102,7 +102,7 @@ fn the_bound_of_the_frequency_holds_under_strain_and_stress() {
             v = (next + v * bound) * (bound * norm(v)).recip();
         }
     }
-    // And it is no idle one.
+    // The bound is not far above the highest value.
     assert!(highest > 0.75, "{highest}");
 }
 

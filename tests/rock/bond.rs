@@ -1,11 +1,11 @@
-//! Bonds: faces that touch at the start pull up to σ_t, in the middle or at the edge, and break for good.
+//! Bonds: faces that touch at the start carry tension up to σ_t, in the middle or at the edge, and break permanently.
 
 use crate::fixture::{assert_restarts, blocks, cuboid, formulas, run, setup};
 use glam::DVec3;
 use kit::assert_relative;
 use riprap::rock::{Block, Blocks, PairMaterial, PointLoad, Setup, Sleep, law::Joint};
 
-/// Of the block that hangs: 0.2 × 0.3 × 0.1 m of 2500 kg/m³.
+/// Weight of the hanging block, N: 0.2 × 0.3 × 0.1 m of 2500 kg/m³.
 const WEIGHT: f64 = 0.006 * 2500.0 * 9.81;
 const AREA: f64 = 0.06;
 
@@ -17,7 +17,7 @@ fn tensile(strength: f64) -> Joint {
     }
 }
 
-/// A block under a ceiling, into which it reaches by `overlap` (m), without gravity.
+/// A block under a ceiling, which it overlaps by `overlap` (m), without gravity.
 fn hanging(joint: Joint, overlap: f64) -> Setup {
     let ceiling = Block::new("ceiling", cuboid(1.0, 1.0, 0.2), DVec3::Z * 0.1).fixed();
     let at = DVec3::Z * (overlap - 0.05);
@@ -27,14 +27,14 @@ fn hanging(joint: Joint, overlap: f64) -> Setup {
     setup
 }
 
-/// Puts the weight on within 0.2 s, without a kink, so that nothing swings beyond it.
+/// Applies the weight smoothly within 0.2 s, so that the load does not overshoot.
 fn slowly(setup: &mut Setup) {
     for block in &mut setup.blocks[1..] {
         block.acceleration = Some(formulas(["0", "0", "-9.81*sin(pi/2*min(1,t/0.2))^2"]));
     }
 }
 
-/// How far the block `block` has sunk in 0.4 s, m.
+/// Distance by which the block `block` sinks in 0.4 s, m.
 fn sunk(setup: Setup, block: usize) -> f64 {
     let mut blocks = blocks(setup);
     let start = blocks.poses()[block].centre.z;
@@ -42,7 +42,7 @@ fn sunk(setup: Setup, block: usize) -> f64 {
     start - blocks.poses()[block].centre.z
 }
 
-/// W/A = σ_t; it opens by W/(k_n A).
+/// W/A = σ_t; the bond opens by W/(k_n A).
 #[test]
 fn a_block_hangs_up_to_its_tensile_strength() {
     for overlap in [0.0, 1e-8] {
@@ -57,7 +57,7 @@ fn a_block_hangs_up_to_its_tensile_strength() {
         let fallen = of(0.98);
         assert!(fallen > 1e-3, "{fallen} m");
     }
-    // From an overlap that throws it down with four times its weight.
+    // An initial overlap that pushes the block down with four times its weight.
     let thrown = sunk(
         Setup {
             gravity: DVec3::Z * -9.81,
@@ -96,8 +96,8 @@ fn a_chain_breaks_in_the_middle() {
     assert!(upper < 3.0 * open && lower > 1e-3, "{upper} m {lower} m");
 }
 
-/// A block glued to a wall: the moment W a/2 over b h²/6 is the tension at the upper edge, 3 W a/(b h²), a the way
-/// out, b the width, h the height. Cohesion carries the shear.
+/// A block bonded to a wall: the moment W a/2 over b h²/6 is the tension at the upper edge, 3 W a/(b h²), a the
+/// length, b the width, h the height. Cohesion carries the shear.
 #[test]
 fn a_cantilever_breaks_by_the_tension_at_its_edge() {
     let strength = 3.0 * WEIGHT * 0.2 / (0.3 * 0.01);
@@ -113,7 +113,7 @@ fn a_cantilever_breaks_by_the_tension_at_its_edge() {
         slowly(&mut setup);
         sunk(setup, 1)
     };
-    // The way of the shear spring, and the turn W a/2/(k_n b h³/12) on half of a.
+    // The displacement of the shear spring, and the rotation W a/2/(k_n b h³/12) times half of a.
     let exact = WEIGHT / (1e9 * 0.03) + WEIGHT * 0.1 / (1e9 * 0.3 * 1e-3 / 12.0) * 0.1;
     let held = of(1.02);
     assert_relative(held, exact, 0.01);
@@ -121,7 +121,7 @@ fn a_cantilever_breaks_by_the_tension_at_its_edge() {
     assert!(fallen > 1e-3, "{fallen} m");
 }
 
-/// A load that tears the block off at 5 kPa, presses it back, and pulls with half of that.
+/// A load that tears the block off at 5 kPa, presses it back, and pulls with half of that stress.
 fn torn() -> Blocks {
     let mut setup = hanging(tensile(5e3), 0.0);
     setup.blocks[1].point_loads = vec![PointLoad {
@@ -188,7 +188,7 @@ fn a_sleeper_hangs_on() {
     assert_relative(pull, WEIGHT, 1e-3);
 }
 
-/// Faces that meet along an edge alone, within the rounding of scenes, glue nothing.
+/// Faces that meet only along an edge, within the rounding of scenes, have no bond.
 #[test]
 fn an_edge_holds_no_bond() {
     for width in [1e-8, 1e-2] {

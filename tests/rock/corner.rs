@@ -8,7 +8,7 @@ use riprap::rock::{Block, Setup};
 const STIFFNESS: f64 = 1e8;
 /// kg, of a cube of 1 m.
 const MASS: f64 = 2500.0;
-/// At which it strikes, m/s.
+/// Impact speed, m/s.
 const SPEED: f64 = 0.5;
 
 /// A cube above a floor, a corner down, without damping.
@@ -28,7 +28,7 @@ fn falling(corner_area: f64) -> Setup {
     }
 }
 
-/// Largest overlap of the cube, and the speed with which it leaves.
+/// Largest overlap of the cube, and its rebound velocity.
 fn struck(corner_area: f64) -> (f64, f64) {
     let mut blocks = blocks(Setup {
         largest_overlap: 0.5,
@@ -45,7 +45,7 @@ fn struck(corner_area: f64) -> (f64, f64) {
     (deepest, blocks.poses()[1].velocity.z)
 }
 
-/// ½mv² is the spring's energy: ½ k_n A u² with an area of its own, k_n c u⁴/4 with that of the section
+/// ½mv² is the spring's energy: ½ k_n A u² with a prescribed area, k_n c u⁴/4 with the area of the section
 /// through the analytic centre, which is the centroid of the corner: c = (3√3/2)(3/4)².
 #[test]
 fn sinks_until_the_spring_holds_its_energy_and_gets_it_back() {
@@ -67,7 +67,8 @@ fn sinks_until_the_spring_holds_its_energy_and_gets_it_back() {
     }
 }
 
-/// By the energies above its corner alone sinks 5.4 cm, beyond the tenth of half an edge, and with a quarter 5 mm.
+/// By the energies above, the corner penetrates by 5.4 cm with the area of its section, more than a tenth of half an
+/// edge, and by 5 mm with a quarter.
 #[test]
 fn a_corner_that_sinks_too_deep_is_told_of_its_area() {
     let error = try_run(&mut blocks(falling(0.0)), 0.4).expect_err("it sinks too deep");

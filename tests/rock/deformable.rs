@@ -1,4 +1,4 @@
-//! Blocks that deform, among themselves and among rigid ones.
+//! Deformable blocks, alone and among rigid ones.
 
 use crate::fixture::{assert_restarts, blocks, cuboid, floor, formulas, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
@@ -40,8 +40,8 @@ fn error(blocks: &Blocks, start: f64) -> f64 {
     (ledger.balance() - start).abs() / turned
 }
 
-/// The exact solution of the pendulum of two unknowns is that of the rigid one as the block stiffens, and its
-/// fixed point stays.
+/// The exact solution of the pendulum with two unknowns tends to that of the rigid pendulum as the block stiffens. The
+/// fixed point does not move.
 #[test]
 fn a_block_swings_about_a_fixed_point() {
     let corner = DVec3::splat(0.5);
@@ -55,7 +55,7 @@ fn a_block_swings_about_a_fixed_point() {
     let pose = blocks.poses()[0];
     assert!((pose.point(corner) - corner).length() < 1e-12);
     let ledger = blocks.ledger();
-    // Of the energy that fell, what the central difference has wrong: (ωΔt)² of the swinging of the strain.
+    // The error of the central difference, as a share of the released energy: (ωΔt)² of the oscillation of the strain.
     let fallen = blocks.mass(0) * G * -pose.centre.z;
     assert!(fallen > 1000.0, "{fallen}");
     assert_near(ledger.balance(), start, 1e-3 * fallen);
@@ -83,10 +83,10 @@ fn forces_at_points_stretch_a_block_and_move_it() {
     let mut blocks = blocks(setup);
     let start = blocks.ledger().balance();
     run(&mut blocks, 0.2);
-    // It swings about the static stress, from zero to twice of it; the mean is it.
+    // The stress oscillates between zero and twice the static stress, which is its mean.
     let mut sum = 0.0;
     let mut count = 0.0;
-    // Periods of the axial mode, √(12E/ρ)/L = 1095 rad/s.
+    // Period of the axial mode, √(12E/ρ)/L = 1095 rad/s.
     let period = std::f64::consts::TAU * 2.0 / (12.0 * young / DENSITY).sqrt();
     for n in 1..=400 {
         run(&mut blocks, 0.2 + 10.0 * period * f64::from(n) / 400.0);
@@ -121,13 +121,13 @@ fn a_load_squeezes_by_its_moment_and_an_initial_stress_lets_go() {
     squeezed.load(&[load]).expect("one load a block");
     run(&mut squeezed, 0.05);
     let stress = squeezed.stress(0).expect("it deforms");
-    // Cauchy stress counts the present area, smaller by 2p(1 − 2ν)/E = 2e-3.
+    // Cauchy stress refers to the present area, smaller by 2p(1 − 2ν)/E = 2e-3.
     assert_relative(stress.x_axis.x, -pressure, 5e-3);
     let volume = squeezed.poses()[0].deformation.determinant() - 1.0;
     let bulk = young / (3.0 * (1.0 - 2.0 * 0.25));
     assert_relative(volume, -pressure / bulk, 5e-3);
 
-    // The stress of a turned block stays along the axes of the world.
+    // The initial stress of a rotated block is along the axes of the world.
     let turn = DQuat::from_rotation_z(0.5);
     let r = DMat3::from_quat(turn);
     setup.blocks = vec![Block {
@@ -144,12 +144,12 @@ fn a_load_squeezes_by_its_moment_and_an_initial_stress_lets_go() {
     run(&mut freed, 0.05);
     let stress = freed.stress(0).expect("it deforms");
     assert!(stress.abs_diff_eq(DMat3::ZERO, 1e-3 * pressure), "{stress}");
-    // It widens by what the stress had pressed, along x of the world.
+    // It expands by the strain that the stress had caused, along x of the world.
     let strain = r * freed.strain(0).expect("it deforms") * r.transpose();
     assert_relative(strain.x_axis.x, pressure / young, 5e-3);
 }
 
-/// A wall of two courses, every second block rigid, laid crookedly.
+/// A wall of two irregular courses, every second block rigid.
 fn wall() -> Setup {
     let mut list = vec![floor()];
     for i in 0..24u32 {

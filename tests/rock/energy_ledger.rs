@@ -1,4 +1,4 @@
-//! Energy: what is there and what was taken adds up to what was put in.
+//! Energy balance: present and dissipated energy add up to the work done on the blocks.
 
 use crate::fixture::{blocks, cuboid, formulas, joint, run, setup, slope};
 use glam::{DQuat, DVec3};
@@ -28,7 +28,7 @@ fn blocks_that_tumble_down_a_slope() {
     let error = (end.balance() - start.balance()).abs();
     let fallen = start.potential - end.potential;
     assert!(error < 0.01 * end.taken(), "{error} J of {end:?}");
-    // Every term takes part, none is negative that only takes.
+    // Every term contributes, and no dissipative term is negative.
     for (name, work) in [
         ("fallen", fallen),
         ("friction", end.friction),
@@ -53,7 +53,7 @@ fn a_driven_block_and_a_load_put_in_what_they_do() {
     let pulled = Block::new("pulled", cuboid(1.0, 1.0, 1.0), DVec3::new(5.0, 0.0, 0.5));
     let mut blocks = blocks(setup(vec![floor, ram, pushed, pulled], joint(1e8, 30.0)));
     let mut loads = [Load::default(); 4];
-    // More than friction holds: 0.577 of the weight of 24.5 kN.
+    // More than the limit of friction: 0.577 of the weight of 24.5 kN.
     loads[3] = Load::at(DVec3::X * 2e4, DVec3::Z * -0.3);
     blocks.load(&loads).expect("one load a block");
     let start = blocks.ledger();
@@ -62,10 +62,10 @@ fn a_driven_block_and_a_load_put_in_what_they_do() {
     let error = (end.balance() - start.balance()).abs();
     let given = end.driven + end.loads;
     assert!(error < 0.01 * given, "{error} J of {end:?}");
-    // The load works along the way of the point that it pulls, here that of the block.
+    // The load does work along the displacement of its point of action, here that of the block.
     let way = blocks.poses()[3].centre.x - 5.0;
     assert_relative(end.loads, 2e4 * way, 0.01);
-    // The ram moves the block by what is left of 1/π m after the gap, against its friction.
+    // The ram moves the block by 1/π m less the gap, against its friction.
     let way = blocks.poses()[2].centre.x - 0.01;
     assert!(end.driven > 0.9 * 0.577 * 2.45e4 * way, "{end:?}, {way} m");
     // (1 − cos πt)/2π.
@@ -73,8 +73,8 @@ fn a_driven_block_and_a_load_put_in_what_they_do() {
     assert_near(ram * std::f64::consts::PI, 1.0, 1e-6);
 }
 
-/// A free block under a load that jumps at every exchange: a step under a constant force gains just what the
-/// force does along it, so that the work is the kinetic energy up to rounding.
+/// A free block under a load that jumps at every exchange: in a step under a constant force, the block gains exactly
+/// the work of the force, so that the total work is the kinetic energy up to rounding.
 #[test]
 fn a_load_that_jumps_works_from_the_moment_on() {
     let block = Block::new("block", cuboid(1.0, 1.0, 1.0), DVec3::ZERO);

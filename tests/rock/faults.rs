@@ -1,4 +1,4 @@
-//! What cannot be computed is refused, by name, and leaves the last good state.
+//! Invalid input is refused with an error that names it, and the last valid state is kept.
 
 use crate::fixture::{blocks, cube, floor, formulas, joint, setup, try_run};
 use glam::{DQuat, DVec3};
@@ -27,7 +27,7 @@ fn elastic() -> Setup {
     setup
 }
 
-/// What setups are refused with, a line for each change.
+/// Error messages of the changed setups, one line per change.
 fn refusals(good: fn() -> Setup, changes: &[fn(&mut Setup)]) -> String {
     let refusal = |change: &fn(&mut Setup)| {
         let mut setup = good();
@@ -194,9 +194,9 @@ fn a_ram_that_crushes_a_block_is_refused_and_the_last_good_state_is_kept() {
         "{error}"
     );
     assert!(depth > limit && (limit - 0.05).abs() < 1e-9, "{error}");
-    // Faces are as stiff as they are.
+    // For a face contact, the error does not suggest a corner area.
     assert!(!error.to_string().contains("corner_area"), "{error}");
-    // The step before it did not crush: the state is that of its end.
+    // The previous step was still accepted: the state is that at its end.
     let deepest = blocks.contacts().map(|c| c.overlap).fold(0.0, f64::max);
     assert!(deepest > 0.04 && deepest <= *limit, "{deepest}");
     let time = blocks.time();
@@ -251,7 +251,7 @@ fn a_drive_without_a_value_names_its_formula_and_the_time() {
     assert_contains(&text, &["ram", "0.1*sqrt(0.02 - t)", "t = 0.02"]);
 }
 
-/// A cube above a floor, in steps that are too long to see it.
+/// A cube above a floor, with steps that are too long to detect the floor.
 #[test]
 fn a_block_that_would_fall_through_another_within_a_step_is_refused() {
     let falling = |dt: f64, velocity: f64| {
@@ -261,7 +261,7 @@ fn a_block_that_would_fall_through_another_within_a_step_is_refused() {
         setup.time_step = Some(dt);
         blocks(setup)
     };
-    // Driven by gravity alone from rest, ½ g Δt² in the first step.
+    // Under gravity alone from rest, it moves by ½ g Δt² in the first step.
     let mut long = falling(1.0, 0.0);
     let text = try_run(&mut long, 3.0).expect_err("a leap").to_string();
     for part in ["blocks[1] (cube):", "4.905e0 m in a step", "of at most"] {
@@ -270,11 +270,11 @@ fn a_block_that_would_fall_through_another_within_a_step_is_refused() {
     assert_eq!((long.time(), long.poses()[1].centre.z), (0.0, 2.5));
     let text = try_run(&mut falling(1e-4, -1e5), 0.01).expect_err("a bullet");
     assert!(text.to_string().contains("1.000e5 m/s"), "{text}");
-    // Steps that see the floor end at it, one way or the other.
+    // Shorter steps reach the floor and fail there, with one error or another.
     for dt in [0.1, 0.01] {
         assert!(try_run(&mut falling(dt, 0.0), 3.0).is_err(), "{dt}");
     }
-    // There is nothing that it could pass through.
+    // Without other blocks there is no limit.
     let mut alone = setup(vec![cube("cube", 2.5)], joint(1e8, 30.0));
     alone.time_step = Some(1.0);
     try_run(&mut blocks(alone), 3.0).expect("free fall");
@@ -323,7 +323,7 @@ fn a_step_too_long_for_the_elasticity_is_refused_with_the_bound() {
     try_run(&mut blocks(long.clone()), 0.1).expect("just below the bound");
     long.time_step = None;
     let usual = blocks(long).time_step();
-    // Half of the largest, less what contacts on its faces would take.
+    // Half of the largest step, less the share of the assumed contacts on its faces.
     assert!(usual < 0.1 * critical && usual > 0.05 * critical, "{usual}");
 }
 
@@ -347,7 +347,7 @@ fn a_block_that_is_crushed_is_named_and_the_last_state_is_kept() {
         }
         assert!(blocks.time() < 0.1, "nothing was refused");
     };
-    // Under strain the block stiffens; whichever limit comes first names it.
+    // Under strain the block stiffens; whichever limit is reached first, the error names the block.
     let text = error.to_string();
     assert!(text.contains("blocks[0] (cube)"), "{text}");
     assert!(

@@ -1,4 +1,4 @@
-//! Films of fluid between blocks that nearly touch: lubrication, without the rest of the fluid.
+//! Films of fluid between blocks that nearly touch: lubrication, without a fluid solver.
 
 use crate::fixture::{assert_restarts, blocks, cuboid, floor, joint, run, setup};
 use glam::{DQuat, DVec3};
@@ -45,8 +45,8 @@ fn momentum(blocks: &Blocks) -> [DVec3; 2] {
     sums
 }
 
-/// Under its weight W a sphere sinks at W/c(h): 6πμR² [ln(h₁/h) − (h₁ − h)/h₀] = W t; a plate of a J of its own
-/// 3μJ [(h⁻² − h₁⁻²)/2 − (h₁ − h)/h₀³] = W t. With a film so viscous that its own time, m/c, is far below the step.
+/// Under its weight W a sphere sinks at W/c(h): 6πμR² [ln(h₁/h) − (h₁ − h)/h₀] = W t; a plate with the torsion constant J:
+/// 3μJ [(h⁻² − h₁⁻²)/2 − (h₁ − h)/h₀³] = W t. The film is so viscous that its time constant, m/c, is far below the step.
 #[test]
 fn blocks_sink_onto_a_floor_as_lubrication_says() {
     let floor = || Block::new("floor", cuboid(20.0, 20.0, 1.0), -0.5 * DVec3::Z).fixed();
@@ -79,7 +79,7 @@ fn blocks_sink_onto_a_floor_as_lubrication_says() {
 
 #[test]
 fn a_film_takes_energy_and_neither_momentum_nor_more_than_there_is() {
-    // A ball and a cube that spin and pass close by each other and by a plate, all free.
+    // A ball and two spinning cubes that pass close by each other, all free.
     let mut cube = Block::new("cube", cuboid(1.0, 1.0, 1.0), DVec3::X * 1.04);
     cube.spin = DVec3::new(0.0, 0.01, -0.02);
     cube.velocity = DVec3::new(-0.02, 0.01, 0.0);
@@ -103,13 +103,13 @@ fn a_film_takes_energy_and_neither_momentum_nor_more_than_there_is() {
             );
         }
         assert!(end.film > 0.0 && end.kinetic < start.kinetic, "{end:?}");
-        // What is taken is what is lost, by the trapezoidal rule of the ledger.
+        // The energy taken by the film is the energy lost, by the trapezoidal rule of the ledger.
         let error = (end.balance() - start.balance()).abs();
         assert!(error < 1e-3 * end.film, "{viscosity}: {error} J of {end:?}");
     }
 }
 
-/// A row of plates on a floor, each on a film: all of the row's weight is on the lowest one.
+/// A row of plates above a floor, each on a film: the lowest film carries the weight of all.
 #[test]
 fn films_in_a_row_carry_what_is_above_them() {
     let mut list = vec![floor()];
@@ -126,7 +126,7 @@ fn films_in_a_row_carry_what_is_above_them() {
     let carried = blocks.film_forces()[0].z;
     let weight = 5.0 * blocks.mass(1) * 9.81;
     assert_relative(-carried, weight, 1e-3);
-    // Each gap closes at its load over its resistance.
+    // Each gap closes at the velocity given by its load over its resistance.
     let torsion = 16.0 * 16.0 / (4.0 * PI * PI * 16.0 / 6.0);
     let resistance = 3.0 * 1e8 * torsion * (0.03f64.powi(-3) - 0.1f64.powi(-3));
     let poses = blocks.poses();
@@ -156,7 +156,7 @@ fn faces_that_slip_and_films_that_are_off() {
         });
         run(&mut blocks, 1e-3);
         let velocity = blocks.poses()[1].velocity;
-        // Only along the normal.
+        // The film acts only along the normal.
         assert_eq!(velocity.x, 3.0);
         0.1 + velocity.z
     };
@@ -169,8 +169,8 @@ fn faces_that_slip_and_films_that_are_off() {
     assert_eq!(slowed(None), 0.0);
 }
 
-/// Loads that come late: m dv/dt = F − c (v − v̄), dv̄/dt = (v − v̄)/T. What moves steadily meets nothing, and a constant
-/// load accelerates it by F/(m + c T), after F/m at first.
+/// Delayed loads: m dv/dt = F − c (v − v̄), dv̄/dt = (v − v̄)/T. Steady motion meets no resistance, and a constant
+/// load accelerates the plate by F/(m + c T), after F/m at first.
 #[test]
 fn a_delay_resists_changes_of_velocity_alone() {
     let delay = LoadDelay {
@@ -200,7 +200,7 @@ fn a_delay_resists_changes_of_velocity_alone() {
     let [first, before, after] = velocities(-0.01, 0.0);
     let mass = 0.5 * 2500.0;
     let share = mass / (mass + delay.impedance * delay.memory);
-    // c/m + 1/T is 130 1/s: 6 % of it are lost in the mean over the first millisecond.
+    // c/m + 1/T is 130 1/s: the mean over the first millisecond is lower by 6 %.
     assert_relative(first, -0.01 * 1e-3, 0.06);
     assert_relative((after - before) / 0.1, -0.01 * share, 1e-3);
 }

@@ -1,4 +1,4 @@
-//! What the cases share: blocks, setups, running to a time, restarts.
+//! Shared helpers of the cases: blocks, setups, running to a time, restarts.
 
 use glam::{DQuat, DVec3};
 use riprap::{
@@ -14,7 +14,7 @@ pub fn cuboid(x: f64, y: f64, z: f64) -> Arc<Shape> {
     Arc::new(shape.into())
 }
 
-/// A rotation about y that turns x downwards by `degrees`.
+/// A rotation about y that tilts x downwards by `degrees`.
 pub fn slope(degrees: f64) -> DQuat {
     DQuat::from_rotation_y(degrees.to_radians())
 }
@@ -53,7 +53,7 @@ pub fn try_run(blocks: &mut Blocks, until: f64) -> Result<()> {
     pollster::block_on(blocks.advance(&mut HostBroadphase, until))
 }
 
-/// A fixed floor of 9 m an edge, its top at z = 0.
+/// A fixed square floor with edges of 9 m, its top at z = 0.
 pub fn floor() -> Block {
     Block::new("floor", cuboid(9.0, 9.0, 1.0), DVec3::Z * -0.5).fixed()
 }
@@ -67,7 +67,7 @@ pub fn formulas(texts: [&str; 3]) -> [Formula; 3] {
     texts.map(|text| text.parse().expect("a formula"))
 }
 
-/// Runs to the time `end`, and again from the bytes of a snapshot at the time `cut`: all bits are the same.
+/// Runs to the time `end`, and again from a serialised snapshot of the time `cut`; asserts that all bits are the same.
 pub fn assert_restarts(setup: &Setup, cut: f64, end: f64) -> Blocks {
     let mut whole = blocks(setup.clone());
     run(&mut whole, cut);

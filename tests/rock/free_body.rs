@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 #[test]
 fn a_free_block_keeps_its_angular_momentum_to_the_last_bit_and_its_energy() {
-    // Its principal axes are not its own: a box with a corner cut off.
+    // A box with a corner cut off, whose principal axes are not the axes of its frame.
     let corner = |k: u32| {
         DVec3::new(
             f64::from(k & 1),
@@ -34,7 +34,7 @@ fn a_free_block_keeps_its_angular_momentum_to_the_last_bit_and_its_energy() {
     let energy = blocks.ledger().kinetic / before.1 - 1.0;
     // Order 2 in |ω|Δt = 0.04.
     assert!(energy.abs() < 2e-4, "{energy}");
-    // I ω in the world's axes is that momentum, with the tensor turned by the pose.
+    // I ω in world axes is that angular momentum, with the tensor rotated by the pose.
     let r = DMat3::from_quat(blocks.rotation(0));
     let spin = blocks.spins().next().expect("one block");
     let tensor = r * inertia * r.transpose();

@@ -1,4 +1,4 @@
-//! Blocks on rails.
+//! Blocks on guides.
 
 use crate::fixture::{assert_restarts, blocks, cube, cuboid, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
@@ -18,7 +18,7 @@ fn guided(list: Vec<Block>) -> riprap::rock::Setup {
     setup
 }
 
-/// Down a rail of 53°: a = g sin 53°, exactly, whatever pulls across and turns.
+/// Down a rail of 53°: a = g sin 53° exactly, regardless of transverse forces and torques.
 #[test]
 fn it_falls_along_its_rail_as_on_a_slope_without_friction() {
     let turn = DQuat::from_rotation_x(0.3);
@@ -42,8 +42,8 @@ fn it_falls_along_its_rail_as_on_a_slope_without_friction() {
     assert!(change.abs() < 1e-9 * blocks.ledger().kinetic, "{change} J");
 }
 
-/// A block beside the way of another, off its centre: it is struck and turns, the guided one only slows down, and nothing
-/// is lost but by the contact. A restart goes on to the same bits.
+/// A guided block strikes another one off its centre: the struck block rotates, the guided one only slows down, and only
+/// the contact dissipates energy. A restart gives the same bits.
 #[test]
 fn it_strikes_another_and_stays_on_its_rail() {
     let hit = DVec3::new(1.5, 0.0, -2.6);

@@ -1,4 +1,4 @@
-//! The force law on its own.
+//! The force law of a contact on its own.
 
 use glam::{DQuat, DVec3};
 use kit::assert_relative;
@@ -52,7 +52,7 @@ fn springs_push_by_stiffness_area_and_way() {
 
 #[test]
 fn shear_stops_at_coulombs_cap_and_the_slip_takes_its_work() {
-    // 0.1 m of way would be 10 MN; the cap is cA + f_n tan φ.
+    // A displacement of 0.1 m would give 10 MN; the cap is cA + f_n tan φ.
     let joint = Joint {
         cohesion: 1e4,
         ..JOINT
@@ -68,7 +68,7 @@ fn shear_stops_at_coulombs_cap_and_the_slip_takes_its_work() {
 fn shear_turns_with_a_pair_that_turns_as_one() {
     let start = slid(&JOINT, 1e-4, &History::default());
     let mut history = start.history;
-    // Both blocks turn by 90° about an oblique axis, in steps of 1°.
+    // Both blocks rotate by 90° about an oblique axis, in steps of 1°.
     let axis = DVec3::new(1.0, 2.0, 3.0).normalize();
     let mut frame = DQuat::IDENTITY;
     for step in 1..=90 {
@@ -85,7 +85,7 @@ fn shear_turns_with_a_pair_that_turns_as_one() {
 
 #[test]
 fn shear_turns_by_half_the_twist_of_one_block_about_the_normal() {
-    // Only the second block spins: the mean of both is half of it.
+    // Only the second block spins: the mean spin of both is half of that.
     let mut history = slid(&JOINT, 1e-4, &History::default()).history;
     let motion = Motion {
         spin: DVec3::Z * (PI / 2.0),
@@ -136,7 +136,7 @@ fn the_dashpot_in_shear_stays_under_the_cap() {
     let found = force(&JOINT, &SECTION, &motion, &History::default());
     let cap = 2e5 * (PI / 6.0).tan();
     assert_relative(found.total().x, -cap, 1e-12);
-    // The spring keeps what it had: nothing.
+    // The spring keeps its force of zero.
     assert_eq!(found.history.shear, DVec3::ZERO);
 }
 
@@ -185,7 +185,7 @@ fn a_bond_breaks_where_it_bends_the_most_or_has_slipped_as_far_as_it_opens() {
         };
         force(&joint, &section, &REST, &bond)
     };
-    // σ_t/k_n = 0.1 mm in the middle and at the edge together.
+    // σ_t/k_n = 0.1 mm is the limit for the opening in the middle plus the additional opening at the edge.
     let held = open(-0.6e-4, 0.39e-4);
     assert!(
         (held.spring.z + 1e8 * 2.0 * 0.6e-4).abs() < 1e-6,

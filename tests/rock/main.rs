@@ -1,4 +1,4 @@
-//! Blocks: dry ones against exact solutions, contact geometry, and the search for pairs.
+//! Rock blocks: dry motion against exact solutions, contact geometry, and the broadphase.
 
 mod affine;
 mod bond;

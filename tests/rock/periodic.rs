@@ -1,4 +1,4 @@
-//! Space that repeats: blocks meet the images of others.
+//! Periodic space: blocks touch the images of others.
 
 use crate::fixture::{assert_restarts, blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
@@ -12,7 +12,7 @@ use riprap::{
     },
 };
 
-/// Along x, from 0 to `length`.
+/// A period along x, from 0 to `length`.
 fn along_x(length: f64) -> Option<Period> {
     Some(Period {
         origin: DVec3::ZERO,
@@ -20,7 +20,7 @@ fn along_x(length: f64) -> Option<Period> {
     })
 }
 
-/// Two blocks that strike each other obliquely, and a ball between them and a wall that a film slows.
+/// Two blocks that strike each other obliquely, and a ball that approaches them and is slowed by a film.
 fn strike(at: DVec3, period: Option<Period>) -> Setup {
     let turn = DQuat::from_scaled_axis(DVec3::new(0.3, 0.2, 0.5));
     let mut left = Block::new("left", cuboid(0.8, 0.7, 0.6), at - DVec3::X * 0.6).turned(turn);
@@ -47,7 +47,7 @@ fn strike(at: DVec3, period: Option<Period>) -> Setup {
     }
 }
 
-/// Across the border, wherever it is, as in the middle.
+/// Blocks behave across the border, wherever it is, as in the middle.
 #[test]
 fn blocks_that_meet_across_the_border_do_as_those_in_the_middle() {
     let away = DVec3::new(3.0, 1.0, -2.0);
@@ -58,7 +58,7 @@ fn blocks_that_meet_across_the_border_do_as_those_in_the_middle() {
     // The border between the two centres, inside of each block, and periods away.
     for at in [0.0, -0.6, 0.5, 1.2, 13.0, -26.2] {
         let at = DVec3::new(at, 1.0, -2.0);
-        // On the near side of the border each block starts in the period.
+        // Each block starts in a different period.
         let mut setup = strike(at, along_x(6.5));
         for (k, block) in setup.blocks.iter_mut().enumerate() {
             block.centre.x += [0.0, 6.5, -13.0][k];
@@ -79,7 +79,7 @@ fn blocks_that_meet_across_the_border_do_as_those_in_the_middle() {
     }
 }
 
-/// A train that fills a ring but for a gap: a blow goes round it and comes back.
+/// A row of blocks that fills a ring except for a gap: an impact travels around it and comes back.
 #[test]
 fn a_blow_goes_round_a_ring() {
     let mut list = Vec::new();
@@ -87,7 +87,7 @@ fn a_blow_goes_round_a_ring() {
         let at = DVec3::X * (0.5 + 1.001 * f64::from(k));
         list.push(Block::new(format!("{k}"), cuboid(1.0, 1.0, 1.0), at));
     }
-    // It goes backwards, over the border, into the last one.
+    // The first block moves backwards, over the border, into the last one.
     list[0].velocity = DVec3::X * -0.5;
     let mut setup = Setup {
         gravity: DVec3::ZERO,
@@ -104,14 +104,14 @@ fn a_blow_goes_round_a_ring() {
     assert!((momentum.x / expected - 1.0).abs() < 1e-12 && momentum.y.abs() < 1e-9);
     let end = blocks.ledger();
     assert_relative(end.balance(), start.balance(), 1e-3);
-    // Each has been struck: nothing stays where it was for good.
+    // Each block has been struck and displaced.
     for (k, pose) in blocks.poses().iter().enumerate() {
         let way = pose.centre.x - (0.5 + 1.001 * k as f64);
         assert!(way < -0.05, "block {k} moved by {way}");
     }
 }
 
-/// Over the border of a floor as long as the period, and over that of one that goes on beyond it, without a jolt.
+/// Over the border of a floor as long as the period, and of a longer floor, without a jolt.
 #[test]
 fn a_block_slides_over_the_border_of_its_floor() {
     for length in [4.0, 12.0] {
@@ -173,7 +173,7 @@ fn all_finders_see_the_same_pairs_of_images() {
     let found = pollster::block_on(HostBroadphase.pairs(&items)).expect("pairs");
     let mut counted = blocks;
     counted.set_pairs(found).expect("the pairs of its items");
-    // Every two blocks, nearest images.
+    // All pairs of blocks, with nearest images.
     let half = 0.5 * counted.skin();
     let reach = DVec3::new(0.6, 0.5, 0.4) + 2.0 * half;
     let mut expected = 0;

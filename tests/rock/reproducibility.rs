@@ -1,4 +1,4 @@
-//! The same bits, whatever the threads and wherever a run was cut; and nothing done for nothing.
+//! The same bits for any number of threads and any restart, and no unnecessary work.
 
 use crate::fixture::{assert_restarts, blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
@@ -11,7 +11,7 @@ use riprap::{
 };
 use std::path::Path;
 
-/// A wall of five courses of sixteen, laid crookedly: more contacts than one thread takes at a time.
+/// A wall of five irregular courses of sixteen blocks: more contacts than one task handles.
 fn wall() -> Setup {
     let mut list = vec![Block::new("floor", cuboid(20.0, 20.0, 1.0), DVec3::Z * -0.5).fixed()];
     for i in 0..80u32 {
@@ -52,7 +52,7 @@ fn a_snapshot_goes_on_with_the_same_bits() {
     assert!(other.restore(&snapshot).is_err());
 }
 
-/// A block that slides on the first of `fixed` blocks side by side.
+/// A block that slides on the first of `fixed` fixed blocks side by side.
 fn slider(fixed: u32) -> Blocks {
     let mut list: Vec<_> = (0..fixed)
         .map(|i| {
@@ -76,7 +76,7 @@ fn five_fixed_blocks_and_a_moving_one_cost_what_one_costs() {
     assert_eq!(five.candidate_pair_count(), 1);
 }
 
-/// As many blocks and parts, but another one of the blocks is the compound: its contacts are not of these parts.
+/// The same number of blocks and parts, but the other block is the compound: the contacts refer to other parts.
 #[test]
 fn a_snapshot_of_other_compounds_is_refused() {
     let part = |x: f64| Part {
@@ -145,7 +145,7 @@ fn a_scene_goes_on_from_a_file_without_a_device() {
     let states = [&mut whole, &mut rest].map(|one| pollster::block_on(one.checkpoint()));
     let [expected, found] = states.map(|state| state.expect("a state"));
     assert!(found == expected && expected != state);
-    // Of another scene.
+    // Checkpoints of another scene.
     let mut longer = state.clone();
     longer.time_step *= 2.0;
     let error = rest.restore(&longer).expect_err("other steps").to_string();

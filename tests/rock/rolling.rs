@@ -1,6 +1,6 @@
-//! A sphere that rolls: a = 5/7 g sin α without slip; from a start that slides on the level, v = 5/7 v₀.
+//! A sphere that rolls: a = 5/7 g sin α without slip; after a start with slip on a level plate, v = 5/7 v₀.
 //!
-//! Its rolling radius is less than its radius by the overlap of about 0.1 mm, 1/2000: twice that in a.
+//! Its rolling radius is less than its radius by the overlap of about 0.1 mm, 1/2000: the error of a is twice that.
 
 use crate::fixture::{blocks, cuboid, joint, run, setup, slope};
 use glam::DVec3;
@@ -15,13 +15,13 @@ const STIFFNESS: f64 = 1e11;
 const G: f64 = 9.81;
 const FRICTION: f64 = 30.0;
 
-/// A sphere on a plate that falls by `alpha` degrees along x, pressed in as it will be. Contacts have a tenth of the
-/// critical damping.
+/// A sphere on a plate that slopes down by `alpha` degrees along x, at its equilibrium overlap. Contacts have a tenth of
+/// the critical damping.
 fn on_plate(alpha: f64, velocity: DVec3) -> Blocks {
     let turn = slope(alpha);
     let volume = 4.0 / 3.0 * std::f64::consts::PI * RADIUS.powi(3);
     let weight = 2500.0 * volume * G * alpha.to_radians().cos();
-    // The section is a circle of 2π r u.
+    // The section is a circle with an area of 2π r u.
     let pressed = (weight / (STIFFNESS * std::f64::consts::TAU * RADIUS)).sqrt();
     let plate = cuboid(12.0, 3.0, 1.0);
     let plate = Block::new("plate", plate, turn * DVec3::new(4.0, 0.0, -0.5));
@@ -54,7 +54,7 @@ fn it_gains_five_sevenths_of_what_pulls_it_down_an_incline() {
     assert_relative(turning, exact, 1e-3);
 }
 
-/// The moment of momentum about the contact stays, however friction acts.
+/// The angular momentum about the contact is conserved for any friction.
 #[test]
 fn one_that_slides_on_the_level_ends_with_five_sevenths_of_its_speed() {
     let start = 2.0;

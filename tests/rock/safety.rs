@@ -1,4 +1,4 @@
-//! Factors of safety of blocks that stand on others, by their contacts.
+//! Factors of safety of blocks that stand on others, from their contacts.
 
 use crate::fixture::{blocks, cuboid, formulas, joint, run, setup, slope};
 use glam::DVec3;
@@ -10,7 +10,7 @@ use riprap::{
 };
 use std::sync::Arc;
 
-/// A block b long and h high, of a square base, on an incline of `alpha` degrees.
+/// A block with a square base of side b and the height h, on an incline of `alpha` degrees.
 fn on_incline(alpha: f64, [b, h]: [f64; 2], joint: Joint) -> Setup {
     let turn = slope(alpha);
     let plate = Block::new("plate", cuboid(12.0, 3.0, 1.0), turn * DVec3::Z * -0.5);
@@ -66,7 +66,7 @@ fn wedge(planes: [[f64; 3]; 2]) -> Setup {
     setup
 }
 
-/// Of the block of this number, once it has come to rest under mass damping, with a force of a fluid (N).
+/// Factors of safety of the block `block` with a fluid force (N), after it has come to rest under mass damping.
 fn standing(setup: Setup, block: usize, force: DVec3) -> Standing {
     let mut blocks = blocks(Setup {
         damping: 50.0,
@@ -76,7 +76,7 @@ fn standing(setup: Setup, block: usize, force: DVec3) -> Standing {
     Standing::of(&setup, &blocks, block, [force, DVec3::ZERO])
 }
 
-/// tan φ/tan α and (b/h)/tan α; the contact's normal and area have the tilt by which it gives way, 1e-4.
+/// tan φ/tan α and (b/h)/tan α; the contact's normal and area include the tilt from its compliance, 1e-4.
 #[test]
 fn a_block_on_an_incline() {
     let lying = || on_incline(30.0, [1.0, 0.4], joint(1e8, 60.0));
@@ -86,8 +86,8 @@ fn a_block_on_an_incline() {
     assert_relative(still.sliding.factor, tan_phi / tan_alpha, 1e-3);
     assert_near(still.toppling * 0.4 * tan_alpha, 1.0, 1e-3);
     assert_eq!(still.uplift, f64::INFINITY);
-    // Under water sliding is the same, uplift is the ratio of the densities, and buoyancy, W/2.5, turns over with what the
-    // weight holds less what it drives.
+    // Under water the factor of sliding is the same, that of uplift is the ratio of the densities, and buoyancy, W/2.5, has
+    // the overturning moment of the resisting less the driving part of the weight.
     let buoyancy = DVec3::Z * 1000.0 * 9.81 * 0.4;
     let wet = standing(lying(), 1, buoyancy);
     assert_relative(wet.sliding.factor, still.sliding.factor, 1e-9);
@@ -97,7 +97,7 @@ fn a_block_on_an_incline() {
     assert_near(wet.uplift, 2.5, 1e-9);
 }
 
-/// A strip at the upper edge of the base has lifted off; it topples over the other edge.
+/// A strip at the upper edge of the base has lifted off; the column topples over the other edge.
 #[test]
 fn a_column_topples_over_its_edge() {
     let found = standing(
@@ -110,7 +110,7 @@ fn a_column_topples_over_its_edge() {
     assert_relative(found, exact, 1e-3);
 }
 
-/// As it was put there, before a step of it: by the faces that lie on others.
+/// At the initial position, before any step, from the faces that lie on others.
 #[test]
 fn before_it_presses_it_stands_on_its_faces() {
     for alpha in [10f64, 20.0] {
@@ -133,7 +133,7 @@ fn a_wedge_on_two_planes() {
 }
 
 /// A block b wide and h high of weight W on the level: a force P at the height z gives W tan φ/P and W b/(2 P z), an
-/// acceleration a gives g tan φ/a and g b/(a h). Without them nothing drives, whatever the contacts' rounding.
+/// acceleration a gives g tan φ/a and g b/(a h). Without them there is no driving force, despite rounding in the contacts.
 #[test]
 fn point_loads_and_accelerations_drive() {
     let standing = |change: &dyn Fn(&mut Block)| {
@@ -170,7 +170,7 @@ fn point_loads_and_accelerations_drive() {
     assert_eq!(standing(&|_| {}), [f64::INFINITY; 3]);
 }
 
-/// A block that is held has no contacts with a floor that is held: it stands on it all the same, whatever lies on it.
+/// A fixed block has no contacts with a fixed floor. It still stands on the floor, also with another block on top.
 #[test]
 fn a_held_block_stands_on_what_is_held_too() {
     let floor = Block::new("floor", cuboid(4.0, 4.0, 1.0), DVec3::Z * -0.5).fixed();
@@ -186,7 +186,7 @@ fn a_held_block_stands_on_what_is_held_too() {
     assert_relative(found.sliding.factor, 2.0, 1e-6);
 }
 
-/// The pillar reaches 0.2 m beyond the border, where space repeats, and the block stands on that with its left end.
+/// The pillar reaches 0.2 m beyond the periodic border, and the block stands on the image of that part with its right end.
 #[test]
 fn a_block_stands_on_the_image_of_another() {
     let pillar = Block::new("pillar", cuboid(0.4, 1.0, 1.0), DVec3::Z * -0.5).fixed();
@@ -205,11 +205,11 @@ fn a_block_stands_on_the_image_of_another() {
     let found = Standing::of(&setup, &blocks(setup.clone()), 1, [push, DVec3::ZERO]);
     // The block reaches from 1 to 2 m, the image of the pillar from 1.8 m on.
     let exact = (1e4 * 0.2 * 0.4 + weight) / weight;
-    // A ten-thousandth of the radius is how far faces may be apart.
+    // Faces in contact may be apart by a ten-thousandth of the radius.
     assert_relative(found.sliding.factor, exact, 1e-3);
 }
 
-/// A block on the edges of two pillars: its springs count with a corner's area, cohesion with that which is there.
+/// A block on the edges of two pillars: its springs use the area of corners, cohesion uses the true area.
 #[test]
 fn cohesion_counts_with_the_section_and_not_with_the_area_of_corners() {
     let pillar = |x: f64| {

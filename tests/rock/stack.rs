@@ -1,5 +1,5 @@
-//! A stack of three that is pushed: blocks that sleep do what they would have done awake, and what moves blocks a little
-//! changes their way a little, since nothing in a contact jumps.
+//! A pushed stack of three blocks: sleeping blocks behave as if they had been awake, and a small displacement changes
+//! the motion only a little, since contacts are continuous.
 
 use crate::fixture::{blocks, cuboid, joint, run, setup};
 use glam::DVec3;
@@ -8,10 +8,10 @@ use riprap::{
     rock::{Block, Blocks, Setup, Sleep},
 };
 
-/// When the push begins, s: the stack is at rest.
+/// Start of the push, s: the stack is at rest then.
 const REST: f64 = 4.0;
 
-/// A stack of three beside a block on its own, the middle one set `aside` by so much (m).
+/// A stack of three next to a single block, the middle block of the stack displaced by `aside` (m).
 fn stack(aside: f64) -> Setup {
     let floor = Block::new("floor", cuboid(20.0, 20.0, 1.0), DVec3::Z * -0.5).fixed();
     let mut list = vec![floor];
@@ -27,7 +27,7 @@ fn stack(aside: f64) -> Setup {
     }
 }
 
-/// Pushes a block sideways, harder than friction holds it.
+/// Pushes a block sideways, with more than the limit of friction.
 fn push(blocks: &mut Blocks, block: usize) {
     let mut loads = [Load::default(); 5];
     loads[block].force = DVec3::X * 6e4;
@@ -61,8 +61,8 @@ fn pushed_blocks_wake_and_go_where_they_would_have_gone() {
     assert_eq!(no_calls, 0, "nothing is computed while all sleep");
     assert_eq!(one, 1, "the block on its own sleeps on");
     for (a, b) in awake.iter().zip(&slept) {
-        // Speed at which they slept over the rate at which it fell, 1e-7 m/s / 3 s⁻¹, before the top one
-        // falls: then nothing is continuous any more.
+        // Sleep speed over the rate at which the speed decayed, 1e-7 m/s / 3 s⁻¹, before the top block
+        // falls: after that the motion is no longer continuous.
         let error = a.centre.distance(b.centre);
         assert!(error < 1e-7, "{error} m");
     }
@@ -70,7 +70,7 @@ fn pushed_blocks_wake_and_go_where_they_would_have_gone() {
     assert!(moved > 0.1, "{moved} m");
 }
 
-/// The blocks tilt by more than ten degrees on each other, from lying on faces to standing on edges and
+/// The blocks tilt by more than five degrees relative to each other, from lying on faces to standing on edges and
 /// back, some faces being upright to the last bit.
 #[test]
 fn a_pushed_stack_forgets_what_set_it_aside() {
@@ -96,7 +96,7 @@ fn a_pushed_stack_forgets_what_set_it_aside() {
             tilt = (1..3).fold(tilt, |most, i| most.max(up(i).angle_between(up(i + 1))));
         }
         assert!(tilt > 5f64.to_radians(), "{}°", tilt.to_degrees());
-        // Blocks of 1 m that fall over go apart as cosh(t √(3g/2h)), 3.5 in half a second.
+        // The distance between toppling blocks of 1 m grows as cosh(t √(3g/2h)), 3.5 in half a second.
         assert!(apart < 3.5 * ASIDE, "{damping} 1/s, {block}: {apart} m");
     }
 }

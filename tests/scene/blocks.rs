@@ -1,4 +1,4 @@
-//! Scenes of blocks: every key, the defaults, and what the blocks become.
+//! Scenes of blocks: every key, the defaults, and the resulting blocks.
 
 use glam::{DMat3, DVec3};
 use kit::assert_near;
@@ -178,7 +178,7 @@ animation = false
     );
     assert_eq!(&names[7..11], ["c_1", "c_2", "c_3", "c_4"]);
     assert_eq!((names[11], *names.last().unwrap()), ("m_1", "solid_1"));
-    // The vertices turn about the origin of their frame: (1, 0, 0) goes to (1, 2, 1).
+    // The vertices rotate about the origin of their frame: (1, 0, 0) goes to (1, 2, 1).
     let tetrahedron = &setup.blocks[0];
     let centroid = tetrahedron.centre.to_array();
     for (got, exact) in centroid.into_iter().zip([0.75, 1.25, 1.25]) {
@@ -197,7 +197,7 @@ animation = false
     assert!((volume - 64.0).abs() < 0.1, "{volume}");
 }
 
-/// n copies turned by 2π/n about an axis close the circle: the last lies one turn before the first.
+/// n copies rotated by 2π/n about an axis close the circle: the last one is one step before the first.
 #[test]
 fn copies_slide_along_the_same_guide() {
     let more = "size = [1, 2, 3]\nguide = [0, 0, -2]\nrepeat = { count = 2, step = [3, 0, 0] }";
@@ -233,7 +233,7 @@ fn rows_that_turn_go_round() {
     }
 }
 
-/// A solid half-space is as thick as the domain is wide, so that no block falls off its edge soon.
+/// A solid half-space is as thick as the domain is wide, so that blocks do not fall off its edge soon.
 #[test]
 fn a_half_space_becomes_a_box_beyond_the_domain() {
     let text = format!(
@@ -269,7 +269,7 @@ fn pieces_that_are_left_out_are_told() {
     assert!((lost.share - 0.25).abs() < 1e-12, "{}", lost.share);
 }
 
-/// A block and a solid in a channel, with a probe of the first kind `block` and one of the name `other`.
+/// A block and a solid in a channel, with a probe of `block` and one called `other`.
 fn probed(block: &str, other: &str) -> riprap::Result<Scene> {
     crate::channel(&format!(
         r#"
@@ -418,7 +418,7 @@ fn joints_have_apertures_that_the_lattice_can_have() {
     assert_near(made.unwrap().joint_aperture.unwrap(), 1.5e-3 / cell, 1e-12);
     let refused = setup("1").0.unwrap_err().to_string();
     assert!(refused.contains("coupling.joint_aperture"), "{refused}");
-    // The bounds as they are printed are in the range.
+    // The bounds as printed are in the range.
     let bounds: Vec<_> = refused
         .split_whitespace()
         .filter(|word| word.contains("e-"))

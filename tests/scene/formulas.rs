@@ -1,4 +1,4 @@
-//! Formulas follow the rules of mathematics, and say where they do not parse.
+//! Formulas follow the rules of mathematics, and errors give the position at which they do not parse.
 
 use riprap::formula::Formula;
 

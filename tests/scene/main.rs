@@ -1,4 +1,4 @@
-//! The scene format: what it accepts, what it refuses and in which words, and what it samples.
+//! The scene format: accepted and refused scenes, messages, and sampled fields.
 
 mod blocks;
 mod format;
@@ -16,7 +16,7 @@ use std::path::Path;
 use riprap::Result;
 use riprap::scene::Scene;
 
-/// A channel of 20 × 10 × 4 cells that needs nothing else.
+/// A complete scene: a channel of 20 × 10 × 4 cells.
 const CHANNEL: &str = r#"
 [domain]
 size = [0.02, 0.01, 0.004]
@@ -43,7 +43,7 @@ fn changed(from: &str, to: &str) -> Result<Scene> {
     read(&CHANNEL.replace(from, to))
 }
 
-/// Asserts that the error says all of `parts`.
+/// Asserts that the error contains all of `parts`.
 #[track_caller]
 fn refused<T: std::fmt::Debug>(result: Result<T>, parts: &[&str]) {
     let words = result.expect_err("this must be refused").to_string();

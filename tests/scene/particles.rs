@@ -1,4 +1,4 @@
-//! Fluids of particles: their keys, and what they leave no room for.
+//! Scenes of particles: their keys, and keys that they do not combine with.
 
 use riprap::scene::build::block_setup;
 use riprap::scene::*;
@@ -173,7 +173,7 @@ fn probes_reach_the_end_of_the_domain_whatever_rounding_makes_of_it() {
     refused(probe(6.4001), &["probes[0].max", "outside the domain"]);
 }
 
-/// The documentation of scenes says what a table holds where there is no water.
+/// The documentation of scenes states what a table holds without water.
 #[test]
 fn the_schema_says_what_dry_probes_write() {
     let schema = serde_json::to_value(schemars::schema_for!(ProbePlace)).unwrap();

@@ -1,5 +1,5 @@
-//! What is refused, and what is warned of: scenes of `refusals.txt`, each a scene of this folder with lines taken out (`-`) and put
-//! in their place or at the end (`+`). The snapshot has the place, the key and the words.
+//! Refusals and warnings: the cases of `refusals.txt`, each a scene of this folder with lines removed (`-`) and lines put in
+//! their place or at the end (`+`). The snapshot has the place, the key and the message.
 
 use riprap::{
     Error, Result,
@@ -25,7 +25,7 @@ boundaries.z_max = { kind = "wall", velocity = [0.01, 0, 0] }
 fluid.viscosity = 1e-5
 "#;
 
-/// The warnings of what is done with a scene before there is a device; keys are checked for steps of 1 ms.
+/// The warnings of all checks of a scene that need no device; keys are checked for steps of 1 ms.
 fn prepare(text: &str) -> Result<Advice> {
     let scene = read(text)?;
     block_setup(&scene)?;
@@ -41,7 +41,7 @@ fn prepare(text: &str) -> Result<Advice> {
     Ok(warnings)
 }
 
-/// A scene of this folder, changed as the lines of a case say.
+/// A scene of this folder, changed by the lines of a case.
 fn changed(case: &str) -> String {
     let mut lines = case.lines();
     let base = match lines.next() {
@@ -97,7 +97,7 @@ fn a_missing_file_is_named() {
 }
 
 proptest::proptest! {
-    /// A scene with a piece cut out or doubled is read or refused, never a panic.
+    /// A scene with a piece cut out or duplicated is read or refused, without a panic.
     #[test]
     fn no_mutilated_scene_panics(from in 0..450_usize, length in 0..60_usize, double: bool) {
         let text = TANK;
@@ -112,7 +112,7 @@ proptest::proptest! {
     }
 }
 
-/// Errors that know only the name of a block find the table that makes it, and so do blocks that overlap.
+/// Errors that only name a block, and errors of overlapping blocks, get the line of the table of the block.
 #[test]
 fn blocks_have_the_line_of_their_table() {
     let text = "[[blocks]]\nname = \"a\"\n[[blocks]]\nname = \"tower\"\nrepeat = 3\n";

@@ -1,4 +1,4 @@
-//! Fields on cells and faces are those that the scene prescribes.
+//! Fields on cells and faces equal those that the scene prescribes.
 
 use riprap::scene::{BodyForce, Face};
 
@@ -49,7 +49,7 @@ fn hydrostatic_pressure_balances_what_is_not_periodic() {
     let (zero, gradient) = scene.hydrostatic();
     assert_eq!(gradient, [5000.0, -9810.0, 0.0]);
     assert!((zero + 5000.0 * 0.02 - 9810.0 * 0.005 - 7.0).abs() < 1e-9);
-    // Nothing balances a force that varies, nor one along periodic axes.
+    // Pressure does not balance a force that varies, nor one along periodic axes.
     let scene = changed("[fluid]", "[fluid]\nacceleration = [5, 0, 0]").unwrap();
     assert_eq!(scene.hydrostatic(), (0.0, [0.0; 3]));
 }
@@ -75,7 +75,7 @@ fn face_velocities_are_taken_on_the_face() {
         scene.face_velocity(Face::XMax, 0.0).unwrap(),
         [[0.0; 3]; 40]
     );
-    // Initially the inlet's fastest point is its upper edge, slower than the lid.
+    // Initially the fastest point of the inlet is its upper edge, which is slower than the lid.
     assert_eq!(scene.sampled_speed().unwrap(), 0.5);
 }
 

@@ -1,4 +1,4 @@
-//! Static solids where they are: the part of each cell that they fill, and terrain from the files of surveys.
+//! Static solids at their exact positions: the solid fraction of each cell, and terrain from survey files.
 
 use crate::{
     refused,
@@ -30,7 +30,7 @@ fn cells(solids: &str) -> SolidFractions {
         .unwrap()
 }
 
-/// Solid cells in all.
+/// Sum of the solid fractions.
 fn volume(cells: &SolidFractions) -> f64 {
     let partial = cells.partial.iter().map(|(_, part)| f64::from(*part));
     cells.mask.solid_count() as f64 + partial.sum::<f64>()
@@ -41,7 +41,7 @@ fn a_half_space_fills_what_is_below_its_plane() {
     let found = cells(
         "[[solids]]\nkind = \"half_space\"\npoint = [0.6, 0.5, 0.4]\nnormal = [1, -0.5, 3]\nsurface = \"exact\"",
     );
-    // The plane goes through the middle of the domain and meets its sides alone.
+    // The plane passes through the middle of the domain and meets only its sides.
     assert_near(volume(&found), 0.5 * 960.0, 1e-3);
     assert!(found.partial.len() > 120);
     assert!(found.partial.is_sorted_by_key(|(cell, _)| *cell));
@@ -61,7 +61,7 @@ fn a_box_along_the_grid_is_the_same_either_way() {
     assert_near(volume(&shifted), 3.7 * 5.0 * 5.7, 1e-3);
 }
 
-/// Whichever way its triangles turn.
+/// With either orientation of its triangles.
 #[test]
 fn a_mesh_of_a_box_fills_what_the_box_does() {
     let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("exact_mesh");
@@ -103,7 +103,7 @@ fn a_sphere_and_a_hole_in_it_have_their_volumes() {
     assert_near(volume(&shell) / (of(0.37) - of(0.25)), 1.0, 1e-3);
 }
 
-/// A bed whose heights are plane but for a ridge: its volume is that below the triangles.
+/// A bed whose heights are plane except for a ridge, and its volume below the triangles.
 fn heights() -> (Vec<f64>, f64) {
     let mut all = Vec::new();
     for j in 0..6 {
@@ -189,7 +189,7 @@ fn terrain_of_every_format_fills_what_is_below_its_heights() {
             .all(|cells| cells.partial.len() == all[0].partial.len())
     );
     let terrain = Terrain::read(&dir.join("bed.xyz"), 2.0, [0.5, 0.0, 1.0]).unwrap();
-    // Half-way up the ridge, on the line between two rows.
+    // Half-way up the ridge, midway between two rows.
     assert_near(
         terrain.height(0.5 + 2.0 * 0.5, 2.0 * 0.2).unwrap(),
         2.0 * (0.23 + 0.05) + 1.0,

@@ -1,4 +1,4 @@
-//! Solids on cells.
+//! Solid cells.
 
 use std::fs::{self, File};
 use std::path::PathBuf;
@@ -70,7 +70,7 @@ fn ball(centre: DVec3, radius: f64, rings: u32) -> Vec<[DVec3; 3]> {
     let point = |ring: u32, step: u32| {
         let polar = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
         let turn = std::f64::consts::TAU * f64::from(step % around) / f64::from(around);
-        // The poles are one point each.
+        // Each pole is a single point.
         let flat = if ring == 0 || ring == rings {
             0.0
         } else {
@@ -102,7 +102,7 @@ fn indexed(triangles: &[[DVec3; 3]]) -> TriangleMesh {
     TriangleMesh::new(&vertices, &order).unwrap()
 }
 
-/// A cube of `cells` cells of 1 mm with the given solids; meshes lie in the scratch directory.
+/// A cube of `cells` cells of 1 mm along an edge with the given solids; meshes are in the scratch directory.
 fn cube(test: &str, cells: u32, solids: &str) -> Result<Scene> {
     let edge = f64::from(cells) * 1e-3;
     let text = format!(
@@ -125,7 +125,7 @@ fn agree(mask: &Mask, scene: &Scene, inside: impl Fn(DVec3) -> bool) {
 
 #[test]
 fn boxes_are_half_open() {
-    // Both boxes end on centres of cells; none is counted twice or lost.
+    // Both boxes end on centres of cells; each of these is counted once.
     let boxes = "[[solids]]\nkind = \"box\"\nmin = [0.0025, 0, 0]\nmax = [0.0085, 0.01, 0.004]\n";
     let rest = "[[solids]]\nkind = \"box\"\nmin = [0.0085, 0, 0]\nmax = [0.0115, 0.01, 0.004]\n";
     let count = |text: &str| channel(text).unwrap().solid_mask().unwrap().solid_count();
@@ -174,7 +174,7 @@ fn winding_numbers_count_enclosures() {
         (DVec3::new(0.001, 0.999, 0.5), 1.0),
         (DVec3::new(-0.001, 0.5, 0.5), 0.0),
         (DVec3::new(3.0, -2.0, 0.1), 0.0),
-        // In the planes of faces and on the lines of edges, where rays fail.
+        // In the planes of faces and on the lines of edges, where ray casting fails.
         (DVec3::new(2.0, 1.0, 1.0), 0.0),
         (DVec3::new(0.5, 0.5, 1.5), 0.0),
     ] {
@@ -214,7 +214,7 @@ fn far_dipoles_stay_far_from_the_deciding_half() {
 #[test]
 fn a_cube_mesh_equals_the_box() {
     let dir = scratch("cube_mesh");
-    // Faces on cell centres on purpose; the file is in millimetres.
+    // Faces lie on cell centres on purpose; the file is in millimetres.
     write_stl(
         &dir.join("cube.stl"),
         &cuboid(DVec3::splat(4.5), DVec3::new(11.5, 12.0, 9.25)),
@@ -403,7 +403,7 @@ fn a_mask_has_no_cells_outside_of_its_grid() {
     assert!(told.contains("domain.cell"), "{told}");
 }
 
-/// The log law of rough walls needs them lower than some cells.
+/// The log law of rough walls requires a roughness below a number of cells.
 #[test]
 fn roughness_of_walls_and_solids_has_a_bound() {
     let setup = |face: f64, solid: f64| {

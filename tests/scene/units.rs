@@ -1,4 +1,4 @@
-//! The border between SI and the lattice.
+//! Conversion between SI and lattice units.
 
 use riprap::units::Units;
 

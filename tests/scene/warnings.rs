@@ -1,4 +1,4 @@
-//! Warnings of which the numbers follow from a formula; those of keys alone are in `refusals.txt`.
+//! Warnings whose numbers follow from a formula; those from keys alone are in `refusals.txt`.
 
 use riprap::Result;
 use riprap::scene::Advice;
@@ -6,7 +6,7 @@ use riprap::units::Units;
 
 use crate::{channel, read};
 
-/// A block in a fluid that weighs along z, as the block does.
+/// A block in a fluid; the weight of both acts along z.
 pub const STONE: &str = r#"
 [domain]
 size = [0.32, 0.16, 0.16]
@@ -83,7 +83,7 @@ fn water_that_given_pressures_compress_is_warned_of() {
     warned(duct(0.01, waves).0, &["boundaries"]);
 }
 
-/// Friction of a surface that cuts cells is no wall's.
+/// The friction of a surface that cuts cells is not that of a wall.
 #[test]
 fn a_wall_model_without_effect_on_an_exact_surface_is_told() {
     let bed = |surface: &str| {

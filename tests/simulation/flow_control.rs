@@ -1,5 +1,5 @@
-//! A bulk velocity that a body force keeps: against the laminar flow between plates and the balance of forces on a sphere,
-//! over restarts, and what is refused.
+//! A bulk velocity held by a body force: compared with laminar flow between plates and the balance of forces on a sphere, over
+//! restarts, and refusals.
 
 use kit::{Rig, assert_contains, assert_near};
 use riprap::{
@@ -68,7 +68,7 @@ fn a_restart_and_other_stretches_go_on_to_the_same_bits() {
     }
 }
 
-/// A state of the same scene without a bulk velocity says nothing of the force.
+/// A state of the same scene without a bulk velocity has no driving force to continue from.
 #[test]
 fn a_state_without_control_begins_it_anew() {
     let rig = Rig::new();
@@ -86,7 +86,7 @@ fn a_state_without_control_begins_it_anew() {
     assert_eq!(totals(&rig, &mut fresh).driving_acceleration, start);
 }
 
-/// In a steady flow what drives the fluid and the solid in it is the drag of the solid.
+/// In a steady flow the force that drives the fluid and the solid in it equals the drag of the solid.
 #[test]
 fn a_sphere_bears_all_of_the_force() {
     let rig = Rig::new();

@@ -1,4 +1,4 @@
-//! Faces whose pressure changes in time, and is hydrostatic.
+//! Faces with a pressure that changes over time, and hydrostatic ones.
 
 use kit::{Rig, assert_near};
 use riprap::{output::Image, scene::Field, simulation::Simulation};
@@ -39,13 +39,13 @@ fn a_basin_follows_the_level_at_its_end() {
         assert_near(mean_pressure(&image(&rig, &mut whole)), 0.0, 1e-3);
         rig.wait(whole.advance(150)).unwrap();
         let halfway = mean_pressure(&image(&rig, &mut whole));
-        // The level is at 37.5 Pa. A face that is held on average only lags behind it.
+        // The level is at 37.5 Pa. A face whose pressure is held only on average lags behind it.
         let around = if reflecting { 25.0..50.0 } else { 1.0..37.5 };
         assert!(around.contains(&halfway), "{reflecting}: {halfway}");
         let state = rig.wait(whole.checkpoint()).unwrap();
         rig.wait(whole.advance(1750)).unwrap();
         let found = image(&rig, &mut whole);
-        // Sound goes on for a while in the basin, whose other end returns it.
+        // Sound persists for a while in the basin, whose other end reflects it.
         assert_near(
             mean_pressure(&found),
             100.0,
@@ -55,7 +55,7 @@ fn a_basin_follows_the_level_at_its_end() {
         fresh.restore(&state).unwrap();
         rig.wait(fresh.advance(1750)).unwrap();
         assert_eq!(image(&rig, &mut fresh), found);
-        // What does not change is what it was as a number.
+        // A constant formula gives the same as a number.
         let run = |pressure: &str| {
             let scene = kit::scene::read(&basin(pressure, reflecting)).unwrap();
             let mut simulation = rig.simulation(&scene).unwrap();
@@ -66,7 +66,7 @@ fn a_basin_follows_the_level_at_its_end() {
     }
 }
 
-/// A flow past a step, which feels gravity along z or does not.
+/// A flow past a step, with the acceleration `gravity` along z.
 fn past_a_step(gravity: f64, reflecting: bool) -> String {
     format!(
         r#"
@@ -90,7 +90,7 @@ fn past_a_step(gravity: f64, reflecting: bool) -> String {
     )
 }
 
-/// The water is denser by 0.2 % at the bottom, and the flow is that without weight.
+/// The water is denser by 0.2 % at the bottom, and the flow equals that without weight.
 #[test]
 fn an_outlet_holds_hydrostatic_pressure_where_water_is_heavy() {
     let rig = Rig::new();

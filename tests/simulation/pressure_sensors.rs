@@ -1,5 +1,5 @@
-//! Pressure sensors on walls: water at rest presses by its depth, in corners too, and what strikes a block presses on a patch
-//! over its face as it pushes the block.
+//! Pressure sensors on walls: water at rest has the pressure of its depth, in corners too, and a patch over the face of a block
+//! receives the impulse that pushes the block.
 
 use kit::{Rig, assert_contains, assert_relative};
 use riprap::simulation::Simulation;
@@ -123,14 +123,14 @@ fn a_patch_over_a_face_feels_what_pushes_its_block() {
     let patch = load.impulse * 0.8 * 0.1;
     assert!(pushed > 1.0, "nothing has struck: {pushed}");
     assert_relative(patch, pushed, 0.1);
-    // From the state on the way to the same bits.
+    // A restart from the intermediate state gives the same bits.
     let (step, state) = cut.unwrap();
     let last = pool.step();
     let mut again = self::pool(&rig, DAM);
     again.restore(&state).unwrap();
     rig.wait(again.advance(last - step)).unwrap();
     assert_eq!(again.sensor("patch"), Some(load));
-    // A scene without it is another one.
+    // A scene without the sensor is another one.
     let (without, _) = DAM.split_once("[[probes]]\n    name = \"patch\"").unwrap();
     let mut without = self::pool(&rig, without);
     let refused = without.restore(&state).unwrap_err().to_string();

@@ -1,4 +1,4 @@
-//! Probes on images whose values are formulas.
+//! Probes of images with values from formulas.
 
 use kit::{assert_contains, assert_near};
 use riprap::output::{Array, Image};
@@ -84,7 +84,7 @@ fn refusal(probe: &str) -> String {
     made.unwrap_err().to_string()
 }
 
-/// Equal to what f32 values leave of sums of a few numbers below 16.
+/// Asserts equality up to the f32 rounding of sums of a few numbers below 16.
 #[track_caller]
 fn near(found: &[f64], expected: &[f64]) {
     assert_eq!(found.len(), expected.len(), "{found:?}");
@@ -129,7 +129,7 @@ fn a_line_counts_its_distance_and_has_both_ends() {
     assert_eq!(columns, ["s", "x", "y", "z", "pressure"]);
     assert_eq!(rows.len(), 4);
     near(&rows[1], &[1.0, 1.0, 2.0, 1.0, 1.0 + 2.0 - 6.0]);
-    // Free slip leaves what lies before the face.
+    // Free slip keeps the values in front of the face.
     near(&rows[0], &[0.0, 0.0, 2.0, 1.0, 1.0 + 0.5 - 6.0]);
     assert_eq!(rows[3][..4], [3.0, 3.0, 2.0, 1.0]);
 }
@@ -163,7 +163,7 @@ fn a_plane_has_all_its_cells_the_lower_axis_first() {
         measure("kind = \"plane\"\naxis = \"x\"\nposition = 2.5\nfields = [\"pressure\"]");
     assert_eq!(columns, ["x", "y", "z", "pressure"]);
     assert_eq!(rows.len(), 6 * 4);
-    // On a face between two layers the upper one counts.
+    // On a face between two layers the upper layer is used.
     assert_eq!(rows[1][..3], [2.75, 0.75, 0.25]);
     assert!(rows[1][3].is_nan(), "the block");
     near(&rows[2], &[2.75, 1.25, 0.25, 1.0 + 5.5 - 3.75]);
@@ -180,7 +180,7 @@ fn a_box_has_mean_and_extremes_of_its_fluid() {
         columns[9..],
         ["pressure_mean", "pressure_min", "pressure_max"]
     );
-    // Centres x = 1.25 and 1.75 before the block, y = 0.25 and 0.75.
+    // Centres x = 1.25 and 1.75 in front of the block, y = 0.25 and 0.75.
     near(&rows[0][..3], &[0.5, 0.25, 0.75]);
     near(&rows[0][3..6], &[1.5, 1.25, 1.75]);
     let p = |x: f64, y: f64| 1.0 + 2.0 * x - 3.0 * y;

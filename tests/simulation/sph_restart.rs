@@ -1,10 +1,10 @@
-//! Free water with blocks that fall, rest in closed joints and float goes on from a file to the same bits.
+//! Free water with blocks that fall, rest in closed joints and float restarts from a file bitwise.
 
 use kit::Rig;
 use riprap::simulation::{Simulation, checkpoint::Checkpoint};
 
-/// A slab on the floor, whose joint carries the pressure of the water at its rim; a stone on it; one that falls, and a
-/// driven one; an obstacle.
+/// A slab on the floor, whose joint has the pressure of the water at its rim; a stone on it; a falling and a driven block; an
+/// obstacle.
 const SCENE: &str = r#"
     [domain]
     size = [1.2, 0.1, 0.8]
@@ -61,7 +61,7 @@ const SCENE: &str = r#"
     duration = 1
 "#;
 
-/// Steps in all, and those before the cut: an odd number of exchanges.
+/// Total number of steps; before the cut there is an odd number of exchanges.
 const STEPS: u64 = 17;
 const CUT: u64 = 6;
 
@@ -84,7 +84,7 @@ fn blocks_in_free_water_go_on_from_a_file_to_the_same_bits() {
     state(&rig, &mut whole).write(&file).unwrap();
     rig.wait(whole.advance(STEPS - CUT)).unwrap();
     let expected = state(&rig, &mut whole);
-    // Everything anew, as in another process.
+    // Everything is created anew, as in another process.
     let rig = Rig::new();
     let mut rest = pool(&rig);
     rest.restore(&Checkpoint::read(&file).unwrap()).unwrap();
@@ -92,7 +92,7 @@ fn blocks_in_free_water_go_on_from_a_file_to_the_same_bits() {
     rig.wait(rest.advance(STEPS - CUT)).unwrap();
     let found = state(&rig, &mut rest);
     assert!(found == expected, "the states differ");
-    // Something has happened between: water and blocks moved, the stone has a contact, and the joint is known.
+    // The state has changed: water and blocks moved, the stone has a contact, and the joint is known.
     assert!(expected != start && expected.rock != start.rock);
     assert!(
         whole.rock().unwrap().blocks().contacts().count() > 0,

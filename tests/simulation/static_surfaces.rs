@@ -1,10 +1,10 @@
-//! Static solids whose surface the fluid meets where it is, beside blocks; blocks on terrain.
+//! Static solids at the exact position of their surface, next to blocks; blocks on terrain.
 
 use kit::{Rig, assert_near};
 use riprap::scene::Scene;
 use std::{fs, path::PathBuf};
 
-/// Flow through a periodic channel over a bed 0.24 m high and past a block that hovers so low that both share cells.
+/// Flow through a periodic channel over a bed 0.24 m high and past a block just above it, so that both share cells.
 fn over_bed(bed: &str) -> Scene {
     kit::scene::read(&format!(
         r#"
@@ -50,14 +50,14 @@ fn a_block_above_a_static_bed_bears_what_it_bears_above_a_block() {
     assert_near(solid.torque().y / block.torque().y, 1.0, 0.03);
 }
 
-/// Over the edges between the triangles of a survey as over one plane: v = g (sin 30° − tan 20° cos 30°) t.
+/// Over the edges between the triangles of a terrain as over a single plane: v = g (sin 30° − tan 20° cos 30°) t.
 #[test]
 fn a_block_slides_over_terrain_as_over_a_plane() {
     let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("slides_over_terrain");
     fs::create_dir_all(&dir).unwrap();
     let mut survey = String::new();
     for (i, j) in (0..20).flat_map(|j| (0..30).map(move |i| (i, j))) {
-        // So little that the block does not feel it, and enough that no two triangles are one plane.
+        // Too little to affect the block, and enough that no two triangles are coplanar.
         let height = 1e-6 * f64::from((7 * i + 3 * j) % 5);
         survey += &format!("{} {} {height:e}\n", 0.1 * f64::from(i), 0.1 * f64::from(j));
     }

@@ -1,4 +1,4 @@
-//! Statistics of the fields of a scene: what is sampled when, over restarts, beside blocks.
+//! Statistics of the fields of a scene: times and content of samples, over restarts, with blocks.
 
 use kit::Rig;
 use riprap::{
@@ -15,7 +15,7 @@ const FIELDS: [Field; 5] = [
     Field::TurbulentKineticEnergy,
 ];
 
-/// A free block in a channel whose inlet swings; samples are the steps 4, 7, 10, …
+/// A free block in a channel with an oscillating inlet; samples are the steps 4, 7, 10, …
 fn scene(statistics: bool) -> Scene {
     let with = match statistics {
         true => "[statistics]\nfrom = 0.04\nevery = 0.03\n[output]\nfields = [\"mean_velocity\"]",
@@ -124,7 +124,7 @@ fn fields_over_time_are_those_of_the_states_that_are_samples() {
         );
     }
 
-    // The flow is the same to the bit, and a run that was cut goes on with the same numbers.
+    // The flow is bitwise the same, and an interrupted run continues with the same numbers.
     let [one, other] = [&mut whole, &mut plain].map(|of| image(&rig, of, &[Field::Velocity]));
     assert_eq!(one, other);
     rig.wait(cut.advance(17)).unwrap();
@@ -133,13 +133,13 @@ fn fields_over_time_are_those_of_the_states_that_are_samples() {
     fresh.restore(&state).unwrap();
     rig.wait(fresh.advance(23)).unwrap();
     assert_eq!(image(&rig, &mut fresh, &FIELDS), found);
-    // One without, and one of other samples, begin anew.
+    // A state without statistics, or with other samples, starts them anew.
     let none = rig.wait(plain.checkpoint()).unwrap();
     fresh.restore(&none).unwrap();
     assert_eq!(fresh.samples(), 0);
 }
 
-/// Samples between two exchanges, under an inlet that stays the same, change nothing.
+/// Samples between two exchanges, with a constant inlet, change nothing.
 #[test]
 fn samples_between_exchanges_leave_the_flow_and_the_blocks_as_they_are() {
     let rig = Rig::new();

@@ -1,4 +1,4 @@
-//! Turbulence at a velocity inlet of a scene: the same eddies whatever the cuts of a run, and what is refused.
+//! Turbulence at a velocity inlet of a scene: the same eddies however a run is interrupted, and refusals.
 
 use kit::{Rig, assert_contains};
 use riprap::{
@@ -6,7 +6,7 @@ use riprap::{
     simulation::Simulation,
 };
 
-/// A stream that becomes faster, with `turbulence` at the inlet.
+/// A stream that accelerates, with `turbulence` at the inlet.
 fn scene(velocity: &str, turbulence: &str) -> riprap::Result<Scene> {
     kit::scene::read(&format!(
         r#"

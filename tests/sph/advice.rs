@@ -27,7 +27,7 @@ fn tank_with(more: &str) -> Vec<String> {
     warnings(&tank(more).unwrap())
 }
 
-/// None for a tank ten particles deep, nor for a block that lies on the floor.
+/// No warning for a tank ten particles deep, nor for a block on the floor.
 #[test]
 fn what_is_resolved_has_no_warning() {
     assert_eq!(tank_with(""), Vec::<String>::new());

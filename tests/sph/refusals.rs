@@ -30,7 +30,7 @@ fn tank() -> Setup {
 
 const MIDDLE: DVec3 = DVec3::splat(0.5);
 
-/// What the solver is refused with, a line.
+/// The message of the solver when it refuses, in one line.
 fn refusal(setup: Setup, at: DVec3, velocity: DVec3, pressure: f64) -> String {
     let refused = solver(setup, at, velocity, pressure);
     refused

@@ -1,7 +1,7 @@
-//! The kernels as a scene on a GPU links them, as SPIR-V: `gpu_kernels FOLDER [KERNELS]`.
+//! Writes the kernels, as linked for a scene on a GPU, as SPIR-V: `gpu_kernels FOLDER [KERNELS]`.
 //!
 //! Writes a file NAME.spv for each kernel, and `index.json` with its entry point and its bindings. Files of the folder
-//! KERNELS, if it is given, stand for those of the library, so that a change is looked at without a build.
+//! KERNELS, if given, replace those of the library, so that a change can be examined without a build.
 
 use glam::DVec3;
 use naga::{
@@ -28,7 +28,7 @@ use std::{
 
 type Outcome = Result<(), Box<dyn Error>>;
 
-/// What is written, and what it is made from.
+/// The output folder, the replaced files, and the programs written so far.
 struct Output<'a> {
     folder: &'a Path,
     replaced: Vec<(String, String)>,
@@ -37,8 +37,8 @@ struct Output<'a> {
 }
 
 impl Output<'_> {
-    /// Links, fills the overrides, those that depend on a scene's size with 1, and writes what wgpu would give to a
-    /// driver with robustBufferAccess2. What two setups have in common is written once.
+    /// Links the program, sets the overrides, those that depend on a scene's size to 1, and writes the SPIR-V that wgpu passes to
+    /// a driver with robustBufferAccess2. Programs that several setups share are written once.
     fn put(
         &mut self,
         name: &str,
@@ -88,7 +88,7 @@ impl Output<'_> {
         Ok(())
     }
 
-    /// The steps of the lattice, and what runs on single cells.
+    /// The steps of the lattice, and its single-cell kernels.
     fn lattice(&mut self) -> Outcome {
         for (storage, lanes, stored) in [(Storage::F32, 1, "f32"), (Storage::F16, 2, "f16")] {
             let mut setup = lattice::Setup::periodic([128; 3], 0.01);

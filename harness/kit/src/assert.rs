@@ -1,4 +1,4 @@
-//! Assertions on numbers and texts, which say what was found.
+//! Assertions on numbers and texts that print the values found.
 
 use std::fmt::Display;
 
@@ -7,7 +7,7 @@ use std::fmt::Display;
 pub fn assert_near(found: impl Into<f64>, exact: impl Into<f64>, limit: f64) {
     let (found, exact) = (found.into(), exact.into());
     let error = (found - exact).abs();
-    // A comparison with NaN is false: what is not a number fails.
+    // A comparison with NaN is false, so that NaN fails.
     assert!(
         error < limit,
         "{found}, not {exact}: off by {error:e}, allowed are {limit:e}"

@@ -1,8 +1,8 @@
-//! Boxes to search: scattered, crowded, of one size and of many.
+//! Boxes for broadphase tests: scattered, crowded, of equal and of many sizes.
 
 use riprap::rock::broadphase::Aabb;
 
-/// Knuth's MMIX generator: the same scenes everywhere.
+/// Knuth's MMIX generator, which gives the same scenes on every machine.
 pub struct Random(pub u64);
 
 impl Random {
@@ -26,7 +26,7 @@ impl Random {
     }
 }
 
-/// A box from its lower corner and edges.
+/// A box given by its lower corner and edges.
 pub fn item(min: [f64; 3], edges: [f64; 3], group: u32) -> Aabb {
     Aabb {
         min,
@@ -35,8 +35,8 @@ pub fn item(min: [f64; 3], edges: [f64; 3], group: u32) -> Aabb {
     }
 }
 
-/// `count` boxes of sizes from 1 to `ratio` cm, evenly on a logarithmic scale, in a domain of half
-/// their volume; each eighth is fixed.
+/// `count` boxes with sizes from 1 to `ratio` cm, uniform on a logarithmic scale, in a domain of half their volume; on
+/// average one of eight is fixed.
 pub fn scattered(count: u32, ratio: f64, seed: u64) -> Vec<Aabb> {
     let mut random = Random(seed);
     let sizes: Vec<f64> = (0..count)
@@ -53,7 +53,7 @@ pub fn scattered(count: u32, ratio: f64, seed: u64) -> Vec<Aabb> {
     boxes.collect()
 }
 
-/// Every pair tried, from the definition.
+/// All overlapping pairs by comparing every box with every other.
 pub fn brute_force(items: &[Aabb]) -> Vec<[u32; 2]> {
     let mut pairs = Vec::new();
     for j in 0..items.len() {

@@ -1,4 +1,4 @@
-//! What a piece of work takes: by the clock on the wall, of the CPU, and between timestamps of a GPU; and how a cost grows.
+//! Timing of work by wall clock, CPU time and GPU timestamps, and the growth of its cost.
 
 use super::gpu;
 use super::subject::Subject;
@@ -9,26 +9,26 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A hanging driver is given up after this.
+/// Timeout for a driver that hangs.
 pub const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Seconds of a piece of work.
+/// Time spent on some work, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spent {
-    /// By the clock on the wall.
+    /// Wall-clock time.
     pub wall: f64,
-    /// Of the CPU, all threads that worked together.
+    /// CPU time of all threads together.
     pub cpu: f64,
 }
 
 impl Spent {
-    /// More than any.
+    /// More than any measured time.
     pub const MOST: Self = Self {
         wall: f64::INFINITY,
         cpu: f64::INFINITY,
     };
 
-    /// What `share` times as much work takes.
+    /// The time of `share` times as much work.
     pub fn scaled(self, share: f64) -> Self {
         Self {
             wall: share * self.wall,
@@ -36,7 +36,7 @@ impl Spent {
         }
     }
 
-    /// The lower of each: others on the machine can only add.
+    /// The lower of each: other processes on the machine can only add time.
     pub fn lower(self, other: Self) -> Self {
         Self {
             wall: self.wall.min(other.wall),
@@ -52,7 +52,7 @@ impl AddAssign for Spent {
     }
 }
 
-/// Work under way.
+/// A running measurement.
 #[derive(Debug)]
 pub struct Stopwatch {
     wall: Instant,
@@ -60,7 +60,7 @@ pub struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// Begins.
+    /// Starts a measurement.
     pub fn start() -> Self {
         Self {
             wall: Instant::now(),
@@ -68,7 +68,7 @@ impl Stopwatch {
         }
     }
 
-    /// What was spent since the start, by all threads of this process.
+    /// The time since the start, for all threads of this process.
     pub fn spent(&self) -> Spent {
         Spent {
             wall: self.wall.elapsed().as_secs_f64(),
@@ -77,19 +77,19 @@ impl Stopwatch {
     }
 }
 
-/// Seconds of one turn.
+/// Time of one repetition, s.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn {
-    /// Submission and waiting included.
+    /// Wall-clock and CPU time, submission and waiting included.
     pub spent: Spent,
-    /// Between GPU timestamps around the pass.
+    /// Time between GPU timestamps around the pass.
     pub device: Option<f64>,
-    /// What speeds are made from: CPU time over the cores on a software adapter, which a busy
-    /// machine does not distort; GPU time elsewhere.
+    /// Time from which speeds are computed: on a software adapter CPU time over the number of cores, which other processes do
+    /// not distort; GPU time elsewhere.
     pub basis: f64,
 }
 
-/// A device and its ways to tell time.
+/// A device and the timers available on it.
 pub struct Clock {
     /// The device.
     pub device: wgpu::Device,
@@ -101,7 +101,7 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// A clock for a device; `software` says that it computes on the CPU.
+    /// A clock for a device; `software` if it computes on the CPU.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, software: bool) -> Self {
         Self {
             timer: Timer::new(device, queue, 1),
@@ -114,7 +114,7 @@ impl Clock {
     /// Waits until the device has done what was submitted.
     ///
     /// # Errors
-    /// If the device is lost or silent.
+    /// If the device is lost or does not answer.
     pub fn wait(&self) -> Result<(), Error> {
         let waited = self.device.poll(wgpu::PollType::Wait {
             submission_index: None,
@@ -123,10 +123,10 @@ impl Clock {
         waited.map_or_else(|e| Err(Error::DeviceLost(e.to_string())), |_| Ok(()))
     }
 
-    /// What a turn takes, from `turns` of them in one submission.
+    /// The mean time of one repetition, from `turns` repetitions in one submission.
     ///
     /// # Errors
-    /// If the device is lost or silent.
+    /// If the device is lost or does not answer.
     pub fn run(&mut self, subject: &mut Subject<'_>, turns: u32) -> Result<Turn, Error> {
         let watch = Stopwatch::start();
         let mut encoder = self.device.create_command_encoder(&Default::default());
@@ -156,17 +156,17 @@ impl Clock {
         })
     }
 
-    /// What `work` takes; [`Clock::basis`] has what speeds are made from.
+    /// The time that `work` takes; [`Clock::basis`] converts it for speeds.
     ///
     /// # Errors
-    /// Those of `work`.
+    /// Returns the errors of `work`.
     pub fn time<E>(&self, work: impl FnOnce() -> Result<(), E>) -> Result<Spent, E> {
         let watch = Stopwatch::start();
         work()?;
         Ok(watch.spent())
     }
 
-    /// CPU time over the cores on a software adapter, else time by the clock on the wall.
+    /// CPU time over the number of cores on a software adapter, else wall-clock time.
     pub fn basis(&self, spent: Spent) -> f64 {
         match self.cores {
             Some(cores) => spent.cpu / cores,
@@ -180,7 +180,7 @@ pub fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// The exponent p of cost ∝ countᵖ by least squares on the logarithms of (count, cost); none without two
+/// The exponent p of cost ∝ countᵖ by least squares on the logarithms of (count, cost); `None` without two different
 /// counts.
 pub fn exponent(points: &[(f64, f64)]) -> Option<f64> {
     let n = points.len() as f64;

@@ -1,14 +1,14 @@
-//! Blocks as the contact laws and parry see them, made from their vertices alone, and pairs of them with a known gap.
+//! Blocks for the contact laws and for parry, both made from the same vertices, and pairs of them with a known gap.
 
 pub use crate::Random;
 use glam::{DMat3, DQuat, DVec3};
 use parry3d_f64::{math::Pose, query, shape::ConvexPolyhedron};
 use riprap::{geometry::HalfSpace, rock::contact::Placed};
 
-/// A convex block in its own frame, in the library's terms and in parry's.
+/// A convex block in its own frame, in the representations of the library and of parry.
 #[derive(Clone, Debug)]
 pub struct Solid {
-    /// Half-spaces whose intersection the block is.
+    /// Half-spaces whose intersection is the block.
     pub faces: Vec<HalfSpace>,
     /// Its vertices.
     pub vertices: Vec<DVec3>,
@@ -17,7 +17,7 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// The convex hull of points in general position, which hold the origin.
+    /// The convex hull of points in general position that enclose the origin.
     pub fn hull(points: &[DVec3]) -> Self {
         let oracle =
             ConvexPolyhedron::from_convex_hull(points).expect("points in general position");
@@ -138,7 +138,7 @@ pub fn ball(radius: f64, centre: DVec3) -> Placed {
     }
 }
 
-/// A pair and where it is.
+/// A pair of blocks with their poses.
 pub struct Couple {
     /// The blocks in their own frames.
     pub solids: [Solid; 2],
@@ -146,14 +146,14 @@ pub struct Couple {
     pub centres: [DVec3; 2],
     /// Their rotations into the world.
     pub rotations: [DQuat; 2],
-    /// L, size of the smaller block.
+    /// Size of the smaller block, L.
     pub length: f64,
 }
 
 impl Couple {
-    /// Two blocks of diameters 1 and 1 to `ratio`, moved together along a random line until parry's
-    /// gap is `gap`, in units of the smaller one (negative: that overlap). Along a line, and not the
-    /// shortest way, since that would end vertex on vertex and not on a face or edge across edge.
+    /// Two blocks of diameters 1 and 1 to `ratio`, moved together along a random line until parry's gap is `gap`, in units
+    /// of the smaller one (negative: an overlap). The line is not the shortest path, which would end with vertex on vertex
+    /// rather than on a face or edge across edge.
     pub fn random(random: &mut Random, ratio: f64, gap: f64) -> Self {
         loop {
             let mut solids = [Solid::any(random), Solid::any(random)];
@@ -176,8 +176,8 @@ impl Couple {
         }
     }
 
-    /// The second block moved along −`way`, by Newton's method on the gap, which is convex in the
-    /// distance gone and so is never passed; the last bit along the normal. None if it passes by.
+    /// Moves the second block along −`way` by Newton's method on the gap, which is convex in the distance moved and so is
+    /// never overshot; the last part along the normal. `None` if the block passes by.
     fn closed(mut self, way: DVec3, gap: f64) -> Option<Self> {
         for _ in 0..30 {
             let there = self.oracle()?;
@@ -185,7 +185,7 @@ impl Couple {
             if rate < 0.05 {
                 return None;
             }
-            // Near enough that no other feature comes first, far enough that parry sees a gap.
+            // Near enough that no other feature touches first, far enough that parry finds a gap.
             if there.dist < 0.002 * self.length {
                 self.centres[1] -= there.normal1 * (there.dist - gap * self.length);
                 return Some(self);
@@ -195,7 +195,7 @@ impl Couple {
         None
     }
 
-    /// parry's contact, of any distance; none where its EPA fails.
+    /// parry's contact at any distance; `None` if its EPA fails.
     pub fn oracle(&self) -> Option<query::Contact> {
         let pose = |k: usize| Pose::from_parts(self.centres[k], self.rotations[k]);
         let [a, b] = &self.solids;

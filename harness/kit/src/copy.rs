@@ -1,4 +1,4 @@
-//! The copy bandwidth of an adapter: the fastest of four ways to copy.
+//! The copy bandwidth of an adapter: the fastest of four methods.
 
 use super::{clock::Clock, subject::Subject};
 use riprap::{
@@ -8,7 +8,7 @@ use riprap::{
 };
 use std::time::{Duration, Instant};
 
-/// A way to copy.
+/// A method of copying.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// `copy_buffer_to_buffer`.
@@ -17,7 +17,7 @@ pub enum Method {
     Kernel(usize),
 }
 
-/// Entry points and texts of the copy kernels, and the bytes that a workgroup of each copies.
+/// Entry points and sources of the copy kernels, and the bytes that a workgroup of each copies.
 const KERNELS: [(&str, &str, u64); 3] = [
     (
         "copy_scalar",
@@ -36,7 +36,7 @@ const KERNELS: [(&str, &str, u64); 3] = [
     ),
 ];
 
-/// All ways, first those that are fastest on most adapters.
+/// All methods, first those that are fastest on most adapters.
 pub const METHODS: [Method; 4] = [
     Method::Buffer,
     Method::Kernel(1),
@@ -44,7 +44,7 @@ pub const METHODS: [Method; 4] = [
     Method::Kernel(0),
 ];
 
-/// Two stretches of memory, in pieces that a binding holds.
+/// Source and target memory, in pieces that fit a binding.
 pub struct Copy {
     pieces: Vec<Piece>,
     kernels: Vec<Kernel>,
@@ -58,10 +58,10 @@ struct Piece {
 }
 
 impl Copy {
-    /// At least `bytes` on either side.
+    /// At least `bytes` for source and target each.
     ///
     /// # Errors
-    /// If the device refuses the kernels.
+    /// If the device rejects the kernels.
     pub fn new(device: &wgpu::Device, bytes: u64) -> Result<Self, Error> {
         let limits = device.limits();
         let largest = limits
@@ -129,18 +129,18 @@ impl Copy {
     }
 }
 
-/// Bytes that the device reads and writes a second when it copies: the fastest way, over `bytes`
-/// or as many as a quarter of a second allows.
+/// Bytes that the device reads and writes per second when copying by the fastest method: over `bytes`, or as many as a
+/// quarter of a second allows.
 ///
 /// # Errors
-/// If the device refuses or is lost.
+/// If the device fails or is lost.
 pub fn copy_bandwidth(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     bytes: u64,
 ) -> Result<f64, Error> {
-    // 16 MiB on either side take a CPU some milliseconds. A GPU that has done with them in less
-    // than one may hold them in its cache and is given 256 MiB.
+    // Copying 16 MiB takes a CPU some milliseconds. A GPU that takes less than one may hold them in its cache, and gets
+    // 256 MiB.
     const CPU: u64 = 16 << 20;
     const GPU: u64 = 256 << 20;
     const TIME: Duration = Duration::from_millis(250);
@@ -149,7 +149,7 @@ pub fn copy_bandwidth(
     let mut best: f64 = 0.0;
     for size in [bytes.min(CPU), bytes.min(GPU)] {
         let copy = Copy::new(device, size)?;
-        // The first turn clears memory, the first one of each kernel compiles.
+        // The first repetition clears memory, the first one of each kernel compiles it.
         clock.run(&mut Subject::Copying(&copy, Method::Buffer), 1)?;
         best = 0.0;
         for method in METHODS.repeat(3) {

@@ -1,4 +1,4 @@
-//! Adapters: which there are, which one is used, and waiting for it with a time-out.
+//! Lists and selects adapters, and waits for devices with a time-out.
 
 use riprap::{Error, Result, wgpu};
 use std::{
@@ -12,7 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// What to do where there is no adapter.
+/// Advice if there is no adapter.
 pub const HINT: &str = "no GPU adapter was found; install a Vulkan driver for your GPU, or the \
     software one: apt-get install mesa-vulkan-drivers libvulkan1";
 
@@ -60,7 +60,7 @@ pub fn describe(info: &wgpu::AdapterInfo) -> String {
 /// The adapter whose description contains `name`, or the first one.
 ///
 /// # Errors
-/// If there is none: what to install, or which names there are.
+/// If there is none; the message says what to install, or lists the adapters.
 pub fn pick(name: Option<&str>) -> Result<wgpu::Adapter> {
     let all = adapters();
     if all.is_empty() {
@@ -80,10 +80,10 @@ pub fn pick(name: Option<&str>) -> Result<wgpu::Adapter> {
     })
 }
 
-/// The adapter whose description contains the environment variable `RIPRAP_ADAPTER`, or the first one: what tests run on.
+/// The adapter whose description contains the environment variable `RIPRAP_ADAPTER`, or the first one; used by tests.
 ///
 /// # Errors
-/// Those of [`pick`].
+/// Returns the errors of [`pick`].
 pub fn selected() -> Result<wgpu::Adapter> {
     pick(std::env::var("RIPRAP_ADAPTER").ok().as_deref())
 }
@@ -91,7 +91,7 @@ pub fn selected() -> Result<wgpu::Adapter> {
 /// A device with the given features and limits.
 ///
 /// # Errors
-/// What the driver says.
+/// Returns the error of the driver.
 pub fn open(
     adapter: &wgpu::Adapter,
     features: wgpu::Features,
@@ -106,15 +106,15 @@ pub fn open(
     pollster::block_on(request).map_err(|e| Error::Device(e.to_string()))
 }
 
-/// Time between two looks at a GPU: short beside a step of it.
+/// Time between two polls of a GPU: short compared with a step.
 const NAP: Duration = Duration::from_micros(20);
-/// How long the host looks at a silent GPU all the time, which takes a core.
+/// Time for which the host polls a silent GPU continuously, which occupies a core.
 const AWAKE: Duration = Duration::from_millis(2);
 
 /// Runs `future` to its end, polling the device for it.
 ///
-/// A GPU is looked at often, so that the host goes on with what has come while the GPU works on the rest; a CPU adapter
-/// has no other cores than the host, which waits until all is done.
+/// A GPU is polled often, so that the host can process finished work while the GPU continues; a CPU adapter shares the cores
+/// of the host, which waits until all is done.
 ///
 /// # Errors
 /// [`Error::Timeout`] if the device is silent for `patience`: drivers may hang on infinite waits.
@@ -128,10 +128,10 @@ pub fn drive<T>(
     drive_by(device, looks, patience, what, future)
 }
 
-/// The same, by looks at the device, or by waits for all that was submitted.
+/// The same, either by polling the device or by waiting for all submitted work.
 ///
 /// # Errors
-/// Those of [`drive`].
+/// Returns the errors of [`drive`].
 pub fn drive_by<T>(
     device: &wgpu::Device,
     looks: bool,
@@ -139,7 +139,7 @@ pub fn drive_by<T>(
     what: &str,
     future: impl Future<Output = T>,
 ) -> Result<T> {
-    /// Whether something has come from the device.
+    /// Whether the device has woken the future.
     #[derive(Default)]
     struct Came(AtomicBool);
     impl Wake for Came {
@@ -171,7 +171,7 @@ pub fn drive_by<T>(
             Err(error) => return Err(Error::DeviceLost(error.to_string())),
         }
         match looks {
-            // A nap lasts longer than it is meant to: a step of a small scene would wait for it.
+            // A sleep lasts longer than requested, which would delay the steps of a small scene.
             true if heard.elapsed() < AWAKE => std::thread::yield_now(),
             true => std::thread::sleep(NAP),
             false => {}

@@ -1,4 +1,4 @@
-//! What tests, benches and the harness share: the choice of an adapter, a device for tests, clocks and copies, scenes of
+//! Code shared by tests, benchmarks and the harness: adapter selection, a device for tests, clocks and copies, scenes of
 //! any size, and the f64 twins of the kernels.
 
 mod assert;

@@ -1,4 +1,4 @@
-//! A rock mass at rest under its weight: the scene in which contacts and steps are measured.
+//! A rock mass at rest under its weight: the scene for timing contacts and steps.
 
 use glam::DVec3;
 use riprap::{
@@ -14,21 +14,21 @@ use riprap::{
 
 use std::sync::Arc;
 
-/// Blocks of about 1 m, one above the other: piles grow sideways, so that as many steps let the weight
-/// come to rest in all of them, and the share of the blocks at the walls says little about the cost.
+/// Layers of blocks of about 1 m: piles grow sideways, so that the weight settles in the same number of steps in all of
+/// them, and the fraction of blocks at the walls has little effect on the cost.
 const LAYERS: f64 = 6.0;
 /// Width of the bedrock around the free blocks, m.
 const BEDROCK: f64 = 1.0;
-/// Mass damping, 1/s. A column of the height H swings at πc/2H = 160 rad/s, c = √(k_n h/ρ) = 614 m/s,
-/// and the pile, sheared too, at half of that: twice its frequency damps it critically.
+/// Mass damping, 1/s. A column of height H oscillates at πc/2H = 160 rad/s, c = √(k_n h/ρ) = 614 m/s,
+/// and the pile, which is sheared as well, at half of that: twice its frequency is critical damping.
 const DAMPING: f64 = 150.0;
 
 /// Largest speed of a block at rest, m/s: at steps of some 1e-5 s it moves by 1e-7 of its size in one.
 const REST: f64 = 3e-3;
-/// Steps after which a pile is taken as it is.
+/// Steps after which a pile is used even if it still moves.
 const MOST_STEPS: u64 = 4000;
 
-/// Blocks and how much they still move.
+/// A pile of blocks.
 pub struct Pile {
     /// The blocks, with pairs and contacts.
     pub blocks: Blocks,
@@ -40,10 +40,10 @@ pub struct Pile {
 }
 
 impl Pile {
-    /// About `count` free blocks as they were cut.
+    /// About `count` free blocks as cut, not yet settled.
     ///
     /// # Errors
-    /// If the cutter refuses the mass.
+    /// If the rock mass cannot be cut.
     pub fn fresh(count: usize) -> Result<Self> {
         let setup = jointed(count)?;
         let blocks = Blocks::new(setup.clone())?;
@@ -73,7 +73,7 @@ impl Pile {
         Ok(pile)
     }
 
-    /// One step, with new pairs first where they are wanted.
+    /// Takes one step, after an update of the pairs if necessary.
     ///
     /// # Errors
     /// If the step fails.
@@ -82,10 +82,10 @@ impl Pile {
         self.blocks.step()
     }
 
-    /// Gives the blocks new pairs where they want them; whether they did.
+    /// Updates the pairs if necessary; returns whether it was.
     ///
     /// # Errors
-    /// None that [`Pile::settled`] has not had.
+    /// None that [`Pile::settled`] did not have.
     pub fn find_pairs(&mut self) -> Result<bool> {
         let wanted = self.blocks.wants_pairs();
         if wanted {
@@ -95,10 +95,10 @@ impl Pile {
         Ok(wanted)
     }
 
-    /// The same blocks where they are now, without velocities, pairs and contacts.
+    /// The same blocks at their present poses, without velocities, pairs and contacts.
     ///
     /// # Errors
-    /// None that [`Pile::settled`] has not had.
+    /// None that [`Pile::settled`] did not have.
     pub fn apart(&self) -> Result<Blocks> {
         let mut setup = self.setup.clone();
         let poses = self.blocks.poses();
@@ -108,7 +108,7 @@ impl Pile {
         Blocks::new(setup)
     }
 
-    /// What the contacts see: all blocks where they are now.
+    /// All blocks at their present poses, as input of the contact search.
     pub fn placed(&self) -> Vec<Placed> {
         let both = self.setup.blocks.iter().zip(self.blocks.poses());
         let placed = both.flat_map(|(block, pose)| {
@@ -124,7 +124,7 @@ impl Pile {
         placed.collect()
     }
 
-    /// The joint of every two blocks.
+    /// The joint properties of every pair of blocks.
     pub fn joint(&self) -> &Joint {
         &self.setup.materials[0].joint
     }
@@ -144,10 +144,10 @@ pub fn joint_sets() -> Vec<JointSet> {
     vec![set(8.0, 20.0, 1), set(80.0, 100.0, 2), set(85.0, 195.0, 3)]
 }
 
-/// Rock cut by three joint sets of 1 m. The blocks at the sides and below are bedrock and stay in their
-/// places, those that the top of the box cuts are dug away, the others are free.
+/// Rock cut by three joint sets of 1 m. The blocks at the sides and below are fixed bedrock, those that the top of the
+/// box cuts are removed, the others are free.
 fn jointed(count: usize) -> Result<Setup> {
-    // As many whole blocks fit into one spacing more.
+    // A box one spacing wider holds that many whole blocks.
     let half = 0.5 * ((count as f64 / LAYERS).sqrt() + 1.0);
     let (low, high) = (
         DVec3::new(-half, -half, 0.0),

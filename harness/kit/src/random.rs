@@ -1,4 +1,4 @@
-//! Numbers that look random, the same on every machine.
+//! Pseudorandom numbers, the same on every machine.
 
 use glam::{DQuat, DVec3};
 
@@ -30,22 +30,22 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
-    /// Evenly spread logarithm.
+    /// In [low, high), with a uniform logarithm.
     pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    /// Evenly spread over the unit cube.
+    /// Uniform in the unit cube.
     pub fn point(&mut self) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|_| self.unit()))
     }
 
-    /// Evenly spread over the cube of edges 2 about the origin.
+    /// Uniform in the cube with edges of 2 around the origin.
     pub fn vector(&mut self) -> DVec3 {
         DVec3::from_array(std::array::from_fn(|_| self.between(-1.0, 1.0)))
     }
 
-    /// Evenly spread over the unit sphere.
+    /// Uniform on the unit sphere.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let v = self.vector();
@@ -55,7 +55,7 @@ impl Random {
         }
     }
 
-    /// Evenly spread over all rotations.
+    /// Uniform over all rotations.
     pub fn rotation(&mut self) -> DQuat {
         loop {
             let v: [f64; 4] = std::array::from_fn(|_| self.between(-1.0, 1.0));

@@ -1,4 +1,4 @@
-//! A device for tests: running a lattice on it, or a kernel by itself on buffers that are full of rubbish.
+//! A device for tests, which runs a lattice, or single kernels on poisoned buffers.
 
 use crate::{
     gpu,
@@ -29,7 +29,7 @@ impl Default for Rig {
 }
 
 impl Rig {
-    /// The [selected](gpu::selected) adapter with all it offers; panics with the install hint where there is none.
+    /// The [selected](gpu::selected) adapter with all its features and limits; panics with the install hint if there is none.
     pub fn new() -> Self {
         Self::with_limits(gpu::selected().unwrap().limits())
     }
@@ -42,7 +42,7 @@ impl Rig {
         Self { device, queue }
     }
 
-    /// Bindings for the populations where each kernel has at most five others.
+    /// Largest number of bindings for the populations if each kernel has at most five others.
     pub fn most_bindings(&self) -> u32 {
         (self.device.limits().max_storage_buffers_per_shader_stage - 5).min(27)
     }
@@ -55,7 +55,7 @@ impl Rig {
     /// A simulation of a scene, with [these kernels](kernels) unless the scene names others.
     ///
     /// # Errors
-    /// What the scene or the device lack.
+    /// If the scene is invalid or does not fit the device.
     pub fn simulation(&self, scene: &Scene) -> Result<Simulation> {
         let scene = match scene.run.kernels {
             Kernels::Auto => for_kernels(scene, kernels()),
@@ -64,7 +64,7 @@ impl Rig {
         self.wait(Simulation::new(&self.device, &self.queue, &scene))
     }
 
-    /// A lattice started from a state.
+    /// A lattice that starts from a state.
     pub fn start(&self, setup: Setup, state: &State, non_equilibrium: bool) -> Lattice {
         let mut lattice = Lattice::new(&self.device, setup).unwrap();
         lattice
@@ -102,7 +102,7 @@ impl Rig {
     }
 }
 
-/// What memory holds before a kernel writes it.
+/// Content of memory before a kernel writes it.
 pub const POISON: u32 = 0xdead_beef;
 
 /// A device on which kernels run one at a time.
@@ -113,7 +113,7 @@ pub struct Workbench {
 }
 
 impl Workbench {
-    /// Workgroups in rows of `width`, as beyond 65 535 of them; `None`: in one row.
+    /// A workbench with workgroups in rows of `width`, as used beyond 65 535 of them; `None` for a single row.
     pub fn new(width: Option<u32>) -> Self {
         Self {
             rig: Rig::new(),
@@ -121,7 +121,7 @@ impl Workbench {
         }
     }
 
-    /// A buffer with these values, for every use.
+    /// A buffer with these values and all usages.
     pub fn buffer<T: bytemuck::Pod>(&self, values: &[T]) -> wgpu::Buffer {
         let contents = bytemuck::cast_slice(values);
         let usage = wgpu::BufferUsages::STORAGE
@@ -137,13 +137,13 @@ impl Workbench {
             })
     }
 
-    /// A buffer of 32-bit words, each of them [`POISON`].
+    /// A buffer of 32-bit words set to [`POISON`].
     pub fn poisoned(&self, words: usize) -> wgpu::Buffer {
         self.buffer(&vec![POISON; words])
     }
 
     /// Runs the entry point of a program, of the same name as its file, for `invocations`; `constants` are those of its
-    /// family.
+    /// family of kernels.
     pub fn run(
         &self,
         program: &Program,
@@ -163,7 +163,7 @@ impl Workbench {
             let groups = invocations.div_ceil(64) as u32;
             match self.grid {
                 Some(width) => {
-                    // The last row is not full, and there is one too many.
+                    // With a last row that is not full, and one row too many.
                     let grid = [width, groups.div_ceil(width) + 1];
                     kernel.record_grid(&mut pass, &bind, grid);
                 }

@@ -29,8 +29,8 @@ pub const STILL_WATER: &str = r#"
     steps = 12
 "#;
 
-/// What tests have the kernels of coupled scenes made for: what the environment variable `RIPRAP_KERNELS` says, `cpu` or
-/// `gpu`, or what the adapter is.
+/// The variant of the kernels for coupled scenes in tests: from the environment variable `RIPRAP_KERNELS`, `cpu` or `gpu`,
+/// or else by the adapter.
 pub fn kernels() -> Kernels {
     match std::env::var("RIPRAP_KERNELS").as_deref() {
         Ok("cpu") => Kernels::Cpu,
@@ -40,7 +40,7 @@ pub fn kernels() -> Kernels {
     }
 }
 
-/// The scene as a processor takes it; where that is a GPU pairs are searched there too, however few blocks there are.
+/// The scene with `kernels`; those of a GPU also imply its broadphase, however few blocks there are.
 pub fn for_kernels(scene: &Scene, kernels: Kernels) -> Scene {
     let mut scene = scene.clone();
     scene.run.kernels = kernels;
@@ -50,10 +50,10 @@ pub fn for_kernels(scene: &Scene, kernels: Kernels) -> Scene {
     scene
 }
 
-/// The scene of a text, as if from `scene.toml` in the working folder.
+/// Parses a scene, as if from `scene.toml` in the working folder.
 ///
 /// # Errors
-/// What the text has wrong.
+/// If the scene is invalid.
 pub fn read(text: &str) -> Result<Scene> {
     Scene::from_toml(text, Path::new(""), "scene.toml")
 }

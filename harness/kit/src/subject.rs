@@ -1,4 +1,4 @@
-//! What is measured: a lattice that steps, one that only streams, a copy, or arithmetic and nothing else.
+//! Subjects of measurements: a lattice that steps, one that only streams, a copy, or pure arithmetic.
 
 use super::{
     copy::{Copy, Method},
@@ -15,7 +15,7 @@ use riprap::{
     wgpu::{self, util::DeviceExt},
 };
 
-/// Something that can be recorded over and over.
+/// Work that can be recorded repeatedly.
 pub enum Subject<'a> {
     /// Steps of a fluid.
     Steps(Box<Lattice>),
@@ -23,21 +23,21 @@ pub enum Subject<'a> {
     Streaming(Box<StreamOnly>),
     /// Copies of a stretch of memory.
     Copying(&'a Copy, Method),
-    /// Arithmetic and nothing else.
+    /// Pure arithmetic.
     Computing(&'a Arithmetic),
-    /// What the caller records.
+    /// Work recorded by the caller in a compute pass.
     Recording(Recording<'a>),
-    /// What the caller records outside of passes.
+    /// Work recorded by the caller outside of passes.
     Encoding(Encoding<'a>),
 }
 
-/// Records a turn.
+/// Records one repetition.
 pub type Recording<'a> = Box<dyn FnMut(&mut wgpu::ComputePass<'_>) + 'a>;
-/// Records a turn.
+/// Records one repetition.
 pub type Encoding<'a> = Box<dyn FnMut(&mut wgpu::CommandEncoder) + 'a>;
 
 impl Subject<'_> {
-    /// Records `turns`; says whether they are between timestamps.
+    /// Records `turns` repetitions; returns whether they are between timestamps.
     pub fn record(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -61,7 +61,7 @@ impl Subject<'_> {
                 Self::Copying(copy, method) => copy.record(*method, &mut pass),
                 Self::Computing(arithmetic) => arithmetic.record(&mut pass),
                 Self::Recording(record) => record(&mut pass),
-                // Has no pass.
+                // Recorded outside of passes.
                 Self::Encoding(_) => {}
             }
         }
@@ -69,7 +69,7 @@ impl Subject<'_> {
     }
 }
 
-/// The populations of a lattice that streams and never collides: what a step of a layout costs at the least.
+/// The populations of a lattice that streams without collision: the minimal cost of a step of a layout.
 pub struct StreamOnly {
     passes: [(Kernel, wgpu::BindGroup); 2],
     groups: u32,
@@ -77,10 +77,10 @@ pub struct StreamOnly {
 }
 
 impl StreamOnly {
-    /// Takes a periodic lattice without solids after an even number of steps, with the state that it has.
+    /// Takes a periodic lattice without solids, after an even number of steps, with its present state.
     ///
     /// # Errors
-    /// [`Error::Argument`] if it has walls or solids, whose reflections belong to the collision.
+    /// [`Error::Argument`] if it has walls or solids, whose reflections are part of the collision.
     pub fn new(device: &wgpu::Device, lattice: Lattice) -> Result<Self, Error> {
         let setup = lattice.setup();
         if !setup.is_all_fluid() {
@@ -88,7 +88,7 @@ impl StreamOnly {
             return Err(Error::argument("faces", message));
         }
         let buffers = lattice.population_buffers();
-        // The layout of the fused kernel, and another text in place of its collision.
+        // The layout of the fused kernel, with another text in place of its collision.
         let text = include_str!("kernels/stream_only.wgsl");
         let program = collide_stream(setup, buffers.len() as u32, BrickKind::All);
         let shader = Shader::new(device, program.text("collide_stream", text).link()?);
@@ -120,17 +120,17 @@ impl StreamOnly {
     }
 }
 
-/// Turns of the loop of arithmetic: short, since drivers may end long ones.
+/// Iterations of the arithmetic loop: few, since drivers may end long loops.
 const TURNS: u32 = 64;
-/// Products and sums of a turn: 32 of each, of four components.
+/// Floating-point operations per iteration: 32 products and 32 sums of four components.
 pub const FLOPS: u64 = 2 * 32 * 4;
-/// Workgroups of 64 on a GPU: large ones hold 270 000 invocations, and this is as many fifteen times over. A dispatch
-/// may have no more than 65535.
+/// Workgroups of 64 on a GPU: large GPUs hold 270 000 invocations, and this is fifteen times as many. A dispatch has at
+/// most 65535.
 const GROUPS: u32 = 65_535;
-/// The same on a CPU, whose cores each take one after the other.
+/// The same on a CPU, whose cores process one workgroup at a time.
 const CPU_GROUPS: u32 = 4096;
 
-/// The arithmetic ceiling of an adapter: products and sums of vectors in registers, and nothing else.
+/// The arithmetic ceiling of an adapter: products and sums of vectors in registers only.
 pub struct Arithmetic {
     kernel: Kernel,
     bind: wgpu::BindGroup,
@@ -143,10 +143,10 @@ pub fn program() -> Program {
 }
 
 impl Arithmetic {
-    /// The kernel and its numbers.
+    /// The kernel and its factors.
     ///
     /// # Errors
-    /// If the device refuses it.
+    /// If the device rejects it.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let groups = match gpu::is_software(&device.adapter_info()) {
             true => CPU_GROUPS,
@@ -159,7 +159,7 @@ impl Arithmetic {
             "multiply_add",
             &[("TURNS", f64::from(TURNS))],
         )?;
-        // Numbers that stay finite: x ← 0.5 x + 0.5 goes to 1.
+        // Values stay finite: x ← 0.5 x + 0.5 converges to 1.
         let factors = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("factors"),
             contents: bytemuck::cast_slice(&[0.5f32; 8]),
@@ -179,7 +179,7 @@ impl Arithmetic {
         })
     }
 
-    /// Products and sums of a dispatch.
+    /// Floating-point operations of a dispatch.
     pub fn flops(&self) -> f64 {
         f64::from(self.groups) * 64.0 * f64::from(TURNS) * FLOPS as f64
     }
@@ -190,8 +190,8 @@ impl Arithmetic {
     }
 }
 
-/// A flow that moves in every cell: waves along each axis and noise. At rest, or where symmetry
-/// keeps a component at 0, denormal numbers would slow a CPU down.
+/// A flow that moves in every cell: waves along each axis and noise. At rest, or where symmetry keeps a component at 0,
+/// denormal numbers would slow a CPU down.
 ///
 /// # Errors
 /// If the setup has no grid.
@@ -213,7 +213,7 @@ pub fn sheared_noise(setup: &Setup) -> Result<State, Error> {
     Ok(state)
 }
 
-/// A number that looks random: the finaliser of MurmurHash3 (Appleby 2011).
+/// A pseudorandom number: the finaliser of MurmurHash3 (Appleby 2011).
 fn hash(n: usize) -> u32 {
     let mut n = n as u32;
     n = (n ^ (n >> 16)).wrapping_mul(0x85eb_ca6b);

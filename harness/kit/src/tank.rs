@@ -1,4 +1,4 @@
-//! A cube of water in a tank that it fills, to be timed.
+//! A tank full of water, for timing.
 
 use crate::gpu::is_software;
 use glam::{DMat3, DVec3};
@@ -10,17 +10,17 @@ use riprap::{
 };
 use std::collections::HashMap;
 
-/// Water at rest or in motion, with what its steps meet.
+/// Water at rest or in motion, with the numbers of its pairs.
 #[derive(Debug)]
 pub struct Tank {
     /// The water on the device.
     pub particles: SphSolver,
     /// Particles of the water.
     pub count: usize,
-    /// Neighbours of a particle, those in walls included.
+    /// Neighbours per particle, boundary particles included.
     pub neighbours: f64,
-    /// Pairs that the sums of a step meet, each once for each of its ends: the sums of momentum and continuity, and
-    /// the pressure of walls.
+    /// Pairs evaluated by the sums of a step, once for each of their ends: in the sums of momentum and continuity, and in the
+    /// pressure of boundary particles.
     pub pairs: f64,
 }
 
@@ -28,7 +28,7 @@ impl Tank {
     /// A cube of water, `edge` particles long, open above.
     ///
     /// # Errors
-    /// If the device does not hold it.
+    /// If it does not fit the device.
     pub fn fill(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -42,10 +42,10 @@ impl Tank {
         Self::begin((device, queue), setup, &positions, pairs)
     }
 
-    /// The same tank with a column of half its width, whose dam has just gone; `pairs` are not known yet.
+    /// The same tank with a column of half its width after a dam break; `pairs` are not counted yet.
     ///
     /// # Errors
-    /// If the device does not hold it.
+    /// If it does not fit the device.
     pub fn dam(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -84,7 +84,7 @@ impl Tank {
         self.pairs = 2.0 * water + 3.0 * walls;
     }
 
-    /// Counts the pairs where the particles are now.
+    /// Counts the pairs at the present positions of the particles.
     ///
     /// # Errors
     /// If the device is lost.
@@ -116,7 +116,7 @@ impl Tank {
         Ok(())
     }
 
-    /// Takes about `steps` steps and says how many, and how many of them sorted.
+    /// Takes about `steps` steps; returns their number and how many of them sorted.
     ///
     /// # Errors
     /// If the device is lost.
@@ -133,7 +133,7 @@ impl Tank {
     }
 }
 
-/// A cube of water, `edge` particles long, in a tank that it fills, open above.
+/// A cube of water, `edge` particles long, that fills a tank open above.
 fn tank(edge: u32) -> (Setup, Vec<DVec3>) {
     let mut setup = Setup::tank(DVec3::ONE, 1.0 / f64::from(edge), 45.0);
     setup.faces[2][1] = Side::Open;
@@ -152,7 +152,7 @@ pub fn resting(centre: DVec3) -> Pose {
     }
 }
 
-/// The points (i + ½) Δx of a box of whole spacings; a planar setup has one row in the middle.
+/// The points (i + ½) Δx of a box of whole spacings; a planar setup has one row in its middle.
 pub fn lattice(setup: &Setup, low: [i32; 3], high: [i32; 3]) -> Vec<DVec3> {
     let mut points = Vec::new();
     let [mut low, mut high] = [low, high];
@@ -208,7 +208,7 @@ pub fn walls(setup: &Setup) -> Body {
     }
 }
 
-/// Pairs of water with water and of water with walls, of particles on the lattice, each for its end in the water.
+/// Pairs of water with water and of water with walls, for particles on the lattice, counted at each end in the water.
 fn pairs(setup: &Setup, positions: &[DVec3]) -> (f64, f64) {
     let reach = (2.0 * setup.smoothing).ceil() as i32;
     let mut offsets = Vec::new();

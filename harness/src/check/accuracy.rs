@@ -1,8 +1,8 @@
-//! How far forces may be off, from what `riprap report` has measured.
+//! Expected errors of forces, from the measurements of `riprap report`.
 //!
-//! The table is that of the report that ships, so that both say the same: the drag on spheres in creeping flow over
-//! resolution and relaxation time, that on cubes in streams, and Poiseuille flow. Where a scene lies between runs, the
-//! band is that of the errors of the runs around it.
+//! The table is that of the shipped report, so that both agree: the drag on spheres in creeping flow over resolution and
+//! relaxation time, the drag on cubes in streams, and Poiseuille flow. For a scene between measured runs, the band spans
+//! the errors of the runs around it.
 
 use crate::{print::percent, report::Row};
 use riprap::{
@@ -11,10 +11,10 @@ use riprap::{
 };
 use serde::Serialize;
 
-/// The report that ships.
+/// The shipped report.
 const MEASURED: &str =
     include_str!("../../results/records/llvmpipe_vulkan_2_cores/report/report.csv");
-/// Classes of blocks in it with their Reynolds numbers.
+/// Classes of blocks in the report with their Reynolds numbers.
 const BLOCKS: [(&str, f64, &str); 3] = [
     ("sphere-array", 0.0, "sphere arrays"),
     ("cube-re20", 20.0, "a cube at Re 20"),
@@ -23,41 +23,41 @@ const BLOCKS: [(&str, f64, &str); 3] = [
 /// The class of channels.
 const CHANNEL: &str = "poiseuille";
 
-/// What neighbours add to the error of the drag, by the cells of the gap between: what K of a dense array of spheres (Zick &
-/// Homsy 1982) is off beyond that of the loose array of the report, as parts of it. Measured at τ = 1, all too low: simple
+/// Error of the drag added by neighbours, over the cells of the gap between them: the relative error of K of a dense array of
+/// spheres (Zick & Homsy 1982) beyond that of the loose array of the report. Measured at τ = 1, all too low: simple
 /// cubic arrays, 12 cells from centre to centre, c = 0.45, −9.0 %, and c = 0.343, −3.8 %; body-centred, c = 0.343 on 16
 /// cells, −3.6 %; simple cubic, c = 0.125 on 16 cells, which is the array of the report, 0.0 %. At τ = 0.6 they are off by −8.3,
 /// −3.3, −3.6 and 0.0 %. Gaps narrower than the first have not been measured.
 const NEIGHBOURS: [[f64; 2]; 4] = [[0.59, 0.09], [1.58, 0.0376], [2.83, 0.036], [6.07, 0.0]];
 
-/// Error by a spread of the density from which on it counts: less is lost in the band of the table.
+/// Smallest error by a spread of the density that is added: smaller ones vanish in the band of the table.
 const LEAST_COMPRESSION: f64 = 0.01;
 
-/// The error that is to be expected, as a part of the force.
+/// The expected error, relative to the force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Accuracy {
-    /// What the force is.
+    /// Name of the force.
     pub of: &'static str,
     /// Cells across the narrowest block, or between the walls.
     pub across: f64,
     /// Relaxation time.
     pub tau: f64,
-    /// y⁺ half a cell from the surface where the stream reaches the first cell, √(½ U Δx/ν): at edges it does. None
-    /// where no speed is known.
+    /// y⁺ half a cell from the surface if the stream reaches the first cell, √(½ U Δx/ν), as it does at edges. `None` if no
+    /// speed is known.
     pub y_plus: Option<f64>,
     /// Cells of the narrowest gap to a neighbour, a wall or an image, if it counts.
     pub gap: Option<f64>,
-    /// Least and largest error of the runs around it.
+    /// Smallest and largest error of the measured runs around the scene.
     pub band: [f64; 2],
-    /// Whether the flow is one of those that were measured, or faster: then the band says little.
+    /// Whether the flow is within the measured range of speeds; beyond it the band says little.
     pub known: bool,
-    /// What was measured.
+    /// Names of the measured flows.
     pub measured: Vec<&'static str>,
-    /// In what the scene is beyond that.
+    /// Respects in which the scene is beyond the measurements.
     pub beyond: Vec<String>,
 }
 
-/// A scene as far as the table goes.
+/// Parameters of a scene by which the table is looked up.
 #[derive(Clone, Copy, Debug)]
 struct Conditions {
     across: f64,
@@ -67,7 +67,7 @@ struct Conditions {
 }
 
 impl Accuracy {
-    /// Of the blocks in a fluid, and of the walls beside it; `speed` (m/s) is that of the fluid.
+    /// The errors for the blocks in a fluid and for its walls; `speed` (m/s) is that of the fluid.
     pub fn all(simulation: &Simulation, speed: Option<f64>) -> Vec<Self> {
         let rows: Vec<Row> = MEASURED.lines().filter_map(Row::parse).collect();
         let (Some(lattice), Some(units)) = (simulation.lattice(), simulation.units()) else {
@@ -107,13 +107,13 @@ impl Accuracy {
         });
         let narrow = walls.map(|axis| scene.cells()[axis.index()]).min();
         let walls = narrow.and_then(|cells| of_walls(&rows, f64::from(cells), tau));
-        // The formula of a pressure that is not finite has been refused.
+        // A pressure formula that is not finite has been refused before.
         let compression = scene.compression(units).unwrap_or_default();
         let all = blocks.into_iter().chain(walls);
         all.map(|found| found.compressed(compression)).collect()
     }
 
-    /// It where the narrowest gap, `between` two, is `gap` cells wide.
+    /// Adds the error of the narrowest gap, `gap` cells wide and `between` two blocks.
     fn crowded(mut self, gap: f64, between: &str) -> Self {
         let more = of_neighbours(gap);
         if more <= 0.0 {
@@ -139,8 +139,8 @@ impl Accuracy {
         self
     }
 
-    /// It where pressures make the fluid denser by a part of its density: force and flow go with the density, which is
-    /// off by half of that on average. The table has no such spread.
+    /// Adds the error of a density that pressures spread by the fraction `compression`: forces and flows scale with the
+    /// density, which is off by half of the spread on average. The table has no such spread.
     fn compressed(mut self, compression: f64) -> Self {
         let more = 0.5 * compression;
         if more >= LEAST_COMPRESSION {
@@ -154,7 +154,7 @@ impl Accuracy {
         self
     }
 
-    /// It in a line.
+    /// The error in one line.
     pub fn text(&self) -> String {
         let [low, high] = self.band.map(percent);
         let band = match low == high {
@@ -179,7 +179,7 @@ impl Accuracy {
     }
 }
 
-/// What a gap of so many cells adds to the error: linear between the rows of [`NEIGHBOURS`].
+/// Error added by a gap of `gap` cells: linear between the rows of [`NEIGHBOURS`].
 fn of_neighbours(gap: f64) -> f64 {
     let [[narrowest, most], ..] = NEIGHBOURS;
     if gap <= narrowest {
@@ -261,7 +261,7 @@ fn of_walls(rows: &[Row], across: f64, tau: f64) -> Option<Accuracy> {
 }
 
 impl Accuracy {
-    /// The band of the rows that are near.
+    /// The band of the `near` rows.
     fn of(
         of: &'static str,
         conditions: Conditions,
@@ -307,7 +307,7 @@ impl Accuracy {
     }
 }
 
-/// The rows with an error around a resolution and, at each of both resolutions, around a relaxation time.
+/// The rows with an error at the resolutions next to `across` and, for each, at the relaxation times next to `tau`.
 fn neighbours<'a>(rows: &[&'a Row], across: f64, tau: f64) -> Vec<&'a Row> {
     let known: Vec<&Row> = rows
         .iter()
@@ -319,7 +319,7 @@ fn neighbours<'a>(rows: &[&'a Row], across: f64, tau: f64) -> Vec<&'a Row> {
     };
     let mut found: Vec<&Row> = Vec::new();
     for (n, size) in sizes.into_iter().enumerate() {
-        // Both are the same where the scene is beyond the table.
+        // Both are equal if the scene is beyond the table.
         if n > 0 && size == sizes[0] {
             continue;
         }
@@ -338,7 +338,7 @@ fn neighbours<'a>(rows: &[&'a Row], across: f64, tau: f64) -> Vec<&'a Row> {
     found
 }
 
-/// The values next to `x` on both sides; the last one twice where there is none beyond it.
+/// The values next to `x` on both sides; the last one twice if there is none beyond it.
 fn around(values: impl Iterator<Item = f64>, x: f64) -> Option<[f64; 2]> {
     let mut sorted: Vec<f64> = values.collect();
     sorted.sort_by(f64::total_cmp);
@@ -460,7 +460,7 @@ mod tests {
             let default = rows.iter().filter(|row| row.class == class && row.default);
             for (row, measured) in default.filter_map(|row| Some((row, row.y_plus?))) {
                 let predicted = (reynolds / (2.0 * row.resolution)).sqrt();
-                // Streams speed up around a body and slow down beside it.
+                // Streams speed up around a body and slow down next to it.
                 assert!(
                     (0.6..1.6).contains(&(predicted / measured)),
                     "{class} on {}: {predicted}, measured {measured}",
@@ -470,8 +470,8 @@ mod tests {
         }
     }
 
-    /// The arrays of spheres at τ = 1 of which the errors are known: 12 cells from centre to centre with c = 0.45 and 0.343,
-    /// and body-centred with 0.343 on 16 cells. The loose array of the report alone has less than 1 %.
+    /// The arrays of spheres at τ = 1 with known errors: 12 cells from centre to centre with c = 0.45 and 0.343, and
+    /// body-centred with 0.343 on 16 cells. The loose array of the report alone has less than 1 %.
     #[test]
     fn neighbours_count_in_the_error_of_dense_arrays() {
         let rows: Vec<Row> = MEASURED.lines().filter_map(Row::parse).collect();

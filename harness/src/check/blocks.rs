@@ -12,26 +12,26 @@ use riprap::{
 use serde::Serialize;
 use std::{collections::HashMap, sync::Arc};
 
-/// What `riprap check` says of blocks.
+/// What `riprap check` reports on blocks.
 #[derive(Debug, Serialize)]
 pub struct BlockFacts {
     /// Blocks in all, solids included.
     pub blocks: usize,
-    /// Those that forces move.
+    /// Blocks moved by forces.
     pub free: usize,
-    /// Those that formulas move.
+    /// Blocks moved by formulas.
     pub driven: usize,
-    /// Those that nothing moves.
+    /// Blocks that do not move.
     pub fixed: usize,
     /// Different shapes.
     pub shapes: usize,
     /// Convex parts of all blocks.
     pub parts: usize,
-    /// Spheres among them.
+    /// Parts that are spheres.
     pub spheres: usize,
-    /// Faces of the others.
+    /// Faces of the other parts.
     pub faces: usize,
-    /// Pieces of rock masses that are too small for a block, a line for each mass.
+    /// Pieces of rock masses that are too small for a block, one line per mass.
     pub left_out: Vec<String>,
     /// Mass of the free blocks, kg.
     pub mass: f64,
@@ -45,14 +45,14 @@ pub struct BlockFacts {
     pub skin: f64,
     /// Longest sub-step after the trial, s.
     pub sub_step: f64,
-    /// Sub-steps of a step.
+    /// Sub-steps per step.
     pub sub_steps: u64,
-    /// Bytes of the blocks' state and shapes, about.
+    /// Approximate bytes of the blocks' state and shapes on the host.
     pub host_memory: u64,
 }
 
 impl BlockFacts {
-    /// Of the blocks of which those `shown` are the first, and that move in steps of `time_step` s.
+    /// The facts of `blocks`, the first of which are `shown`, with steps of `time_step` s.
     pub fn of(shown: &[Block], blocks: &Blocks, left: &[LeftOut], time_step: f64) -> Self {
         let count = |wanted: fn(&Motion) -> bool| {
             let motions = shown.iter().map(|block| &block.motion);
@@ -97,7 +97,7 @@ impl BlockFacts {
         }
     }
 
-    /// Lines of a name and what there is of it.
+    /// Adds one line per item, with its name and value.
     pub fn lines(&self, lines: &mut Lines) {
         lines.add(
             "blocks",
@@ -137,7 +137,7 @@ impl BlockFacts {
         lines.add(
             "sub-steps",
             format_args!(
-                "{} of at most {:.4e} s a step",
+                "{} of at most {:.4e} s per step",
                 self.sub_steps, self.sub_step
             ),
         );
@@ -145,39 +145,39 @@ impl BlockFacts {
     }
 }
 
-/// Gaps that are listed one by one.
+/// Number of gaps that are listed one by one.
 const LISTED: usize = 20;
 
-/// What `riprap check` says of blocks in a fluid.
+/// What `riprap check` reports on blocks in a fluid.
 #[derive(Debug, Serialize)]
 pub struct Immersion {
     /// The blocks.
     #[serde(flatten)]
     pub facts: BlockFacts,
-    /// Where they are in the lattice after the trial.
+    /// Their tiles and bricks in the lattice after the trial.
     pub cells: Coupling,
     /// Steps of the fluid from one exchange to the next.
     pub interval: u32,
     /// Pairs of blocks that are less than a cell apart at the start.
     pub narrow_gaps: usize,
-    /// Those of them that touch.
+    /// Pairs of them that touch.
     pub closed_gaps: usize,
     /// Whether lubrication acts in gaps that the grid does not resolve.
     pub lubrication: bool,
-    /// The narrowest of them that do not, at most 20.
+    /// The narrowest pairs that do not touch, at most 20.
     pub narrowest: Vec<Narrow>,
     /// Water in closed joints.
     pub closed_joints: ClosedJoints,
 }
 
-/// How closed joints let water through, as their cells lie: between rows of cells or within one.
+/// Hydraulic properties of closed joints, for faces between rows of cells and within one row.
 #[derive(Debug, Serialize)]
 pub struct ClosedJoints {
     /// Hydraulic apertures by the cubic law, narrowest and widest, m.
     pub apertures: [f64; 2],
-    /// Side of a square face as large as those of the largest block are, m.
+    /// Side of a cube with the volume of the largest block, taken as the side of a square face, m.
     pub face: f64,
-    /// Time after which half of a change of pressure around such a face is in its middle, shortest and longest, s.
+    /// Time until half of a pressure change around such a face has reached its middle, shortest and longest, s.
     pub times: [f64; 2],
 }
 
@@ -193,7 +193,7 @@ pub struct Narrow {
 }
 
 impl Immersion {
-    /// Of the blocks in `simulation`, if there are any, after `steps` steps of trial.
+    /// The blocks in `simulation`, if there are any, after `steps` steps of trial.
     pub fn of(simulation: &Simulation, steps: u64) -> Option<Self> {
         let coupled = simulation.coupled()?;
         let scene = simulation.scene();
@@ -224,7 +224,7 @@ impl Immersion {
         })
     }
 
-    /// Lines of a name and what there is of it.
+    /// Adds one line per item, with its name and value.
     pub fn lines(&self, lines: &mut Lines) {
         self.facts.lines(lines);
         lines.add(
@@ -234,7 +234,7 @@ impl Immersion {
         lines.add(
             "",
             format_args!(
-                "{} on the device; they meet the fluid every {} steps",
+                "{} on the device; they exchange with the fluid every {} steps",
                 bytes(self.cells.bytes),
                 self.interval
             ),
@@ -276,7 +276,7 @@ impl Immersion {
     }
 }
 
-/// One number, or two that differ.
+/// One number, or two if they differ.
 fn range([low, high]: [f64; 2]) -> String {
     let [low, high] = [low, high].map(|number| format!("{number:.2e}"));
     match low == high {
@@ -285,8 +285,8 @@ fn range([low, high]: [f64; 2]) -> String {
     }
 }
 
-/// Of the square of the side over the diffusivity, the time after which half of a change of pressure at the four sides of a square
-/// is in its middle.
+/// Time until half of a pressure change at the four sides of a square has reached its middle, in units of the square of the
+/// side over the diffusivity.
 const HALF_TIME: f64 = 0.0594;
 
 impl ClosedJoints {
@@ -336,7 +336,7 @@ mod tests {
     use super::HALF_TIME;
     use std::f64::consts::PI;
 
-    /// What is missing in the middle of a square is the square of what is missing in the middle of a strip.
+    /// The deficit in the middle of a square is the square of the deficit in the middle of a strip.
     #[test]
     fn half_of_a_change_is_in_the_middle_of_a_square() {
         let missing = |n: f64| {

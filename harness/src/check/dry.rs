@@ -1,11 +1,11 @@
-//! What a scene of blocks alone will run.
+//! Report on a scene of blocks alone.
 
 use super::{BlockFacts, lines::Lines, trial::Trial};
 use crate::{print::duration, run::SceneRun};
 use anyhow::{Context, Result};
 use serde::Serialize;
 
-/// All that `riprap check` says of blocks alone.
+/// What `riprap check` reports on blocks alone.
 #[derive(Debug, Serialize)]
 pub struct RockReport {
     /// Title of the scene.
@@ -13,7 +13,7 @@ pub struct RockReport {
     /// The blocks.
     #[serde(flatten)]
     pub facts: BlockFacts,
-    /// Where pairs are searched.
+    /// Processor of the broadphase.
     pub search: String,
     /// Step of the run, s.
     pub time_step: f64,
@@ -23,20 +23,20 @@ pub struct RockReport {
     pub steps: u64,
     /// Simulated time of the run, s.
     pub duration: f64,
-    /// What may disappoint.
+    /// Warnings about the scene.
     pub warnings: Vec<String>,
-    /// One step, s.
+    /// Time that one step takes, s.
     pub step_seconds: f64,
-    /// The run without its output, s.
+    /// Time that the run takes without its output, s.
     pub run_seconds: f64,
     /// Steps of the trial.
     pub trial_steps: u64,
 }
 
-/// Tries a few steps of a scene of blocks alone.
+/// Runs a few steps of a scene of blocks alone and reports on them.
 ///
 /// # Errors
-/// Those of its steps.
+/// Returns the errors of the steps.
 pub fn report(run: &mut SceneRun) -> Result<RockReport> {
     let time_step = run.time_step();
     let steps = run.scene().run.count(time_step);
@@ -67,7 +67,7 @@ pub fn report(run: &mut SceneRun) -> Result<RockReport> {
 }
 
 impl RockReport {
-    /// The report in lines of a name and what there is of it.
+    /// The report, one line per item.
     pub fn text(&self) -> String {
         let mut lines = Lines::titled(&self.title);
         self.facts.lines(&mut lines);
@@ -89,7 +89,7 @@ impl RockReport {
         lines.add(
             "run",
             format_args!(
-                "about {} without output: {:.3e} s a step ({} steps tried)",
+                "about {} without output: {:.3e} s per step ({} steps tried)",
                 duration(self.run_seconds),
                 self.step_seconds,
                 self.trial_steps

@@ -54,7 +54,7 @@ fn write_programs<'a>(folder: &Path, linked: impl Iterator<Item = &'a Linked>) -
         };
         let mut text = String::new();
         for (slot, file) in &program.slots {
-            // A String takes all that is written to it.
+            // Writing to a `String` cannot fail.
             let _ = writeln!(text, "// ${slot}: {file}");
         }
         text.push_str(&program.text);

@@ -1,4 +1,4 @@
-//! Lines of a name and a text, of which the reports consist.
+//! Lines of a name and a text, from which the reports are built.
 
 use crate::adapters::Adapter;
 use std::fmt::Display;
@@ -28,14 +28,14 @@ impl Lines {
         self.add("adapter", format_args!("{name} ({backend}, {driver})"));
     }
 
-    /// Adds what may disappoint.
+    /// Adds the warnings.
     pub fn warnings(&mut self, warnings: &[String]) {
         for warning in warnings {
             self.add("warning", warning);
         }
     }
 
-    /// All of it.
+    /// All lines as one text.
     pub fn text(self) -> String {
         self.0
     }

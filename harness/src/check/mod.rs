@@ -1,4 +1,4 @@
-//! `riprap check`: what a scene will run, and how long it will take.
+//! `riprap check`: cells, memory, kernels and expected running time of a scene.
 
 mod accuracy;
 mod blocks;
@@ -41,12 +41,12 @@ pub struct Args {
 /// Prints the report.
 ///
 /// # Errors
-/// What the scene lacks, or what the adapter cannot hold.
+/// If the scene is invalid or does not fit the adapter.
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
     let name = args.adapter.as_deref();
     let mut run = SceneRun::open(&scene, &args.scene, name)?;
-    // What ends the trial is reported after all that was known before it.
+    // An error that ends the trial is returned after the report.
     let ended = match run.simulation.kind() {
         Kind::Rock => {
             let report = dry::report(&mut run)?;

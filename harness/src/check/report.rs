@@ -1,4 +1,4 @@
-//! What a scene will run.
+//! Report on a scene with a lattice.
 
 use super::{Accuracy, Immersion, lines::Lines, trial::Trial};
 use crate::{
@@ -14,32 +14,32 @@ use riprap::{
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// All that `riprap check` says.
+/// What `riprap check` reports on a lattice.
 #[derive(Debug, Serialize)]
 pub struct Report {
     /// Title of the scene.
     pub title: String,
-    /// What it runs on.
+    /// The adapter on which it runs.
     pub adapter: Adapter,
     /// The grid.
     pub cells: Cells,
     /// Bytes on the device.
     pub memory: Memory,
-    /// What a step dispatches.
+    /// Dispatches of a step.
     pub kernels: Vec<Kernel>,
-    /// What the scene does not need, so that nobody pays for it.
+    /// Features that the scene does not use and the kernels skip.
     pub left_out: Vec<LeftOut>,
-    /// Time and the numbers of the method.
+    /// Time step and parameters of the method.
     pub numerics: Numerics,
     /// The blocks, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<Immersion>,
-    /// How far forces may be off, as `riprap report` has measured it.
+    /// Expected errors of forces, as measured by `riprap report`.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub accuracy: Vec<Accuracy>,
-    /// What may disappoint.
+    /// Warnings about the scene.
     pub warnings: Vec<String>,
-    /// How long it takes.
+    /// Running time.
     pub time: Time,
 }
 
@@ -52,13 +52,13 @@ pub struct Cells {
     pub fluid: u64,
     /// Cells of static solids.
     pub solid: u64,
-    /// Cells an invocation.
+    /// Cells per invocation.
     pub lanes: u32,
     /// Groups of 64 invocations of plain fluid.
     pub plain_bricks: u64,
-    /// Those with a wall, a solid or a face.
+    /// Groups with a wall, a solid or a face.
     pub mixed_bricks: u64,
-    /// Those without fluid, which are never dispatched.
+    /// Groups without fluid, which are never dispatched.
     pub idle_bricks: u64,
     /// Populations that walls and free-slip faces reflect in each step.
     pub links: u64,
@@ -68,16 +68,16 @@ pub struct Cells {
     pub open: u64,
     /// Faces of fluid cells that are walls or solids at rest.
     pub wall_faces: u64,
-    /// Those with a wall model.
+    /// Faces with a wall model.
     pub modelled_faces: u64,
 }
 
 /// Bytes on the device.
 #[derive(Debug, Serialize)]
 pub struct Memory {
-    /// By kind.
+    /// Bytes by kind of buffer.
     pub kinds: BTreeMap<String, u64>,
-    /// In all.
+    /// Bytes in all.
     pub total: u64,
     /// Storage bindings that hold the populations.
     pub population_bindings: u32,
@@ -94,21 +94,21 @@ pub struct Kernel {
     pub slots: BTreeMap<String, String>,
     /// Names of its buffers.
     pub bindings: Vec<String>,
-    /// Groups of invocations.
+    /// Workgroups.
     pub workgroups: u32,
-    /// Invocations of a group.
+    /// Invocations per workgroup.
     pub invocations: u32,
-    /// Floating-point operations of an invocation, counted from its code, on the longest way through.
+    /// Floating-point operations of an invocation on its longest path, counted from the code.
     pub flops: u64,
-    /// Bytes that an invocation reads from buffers, so counted.
+    /// Bytes that an invocation reads from buffers, counted likewise.
     pub read: u64,
     /// Bytes that it writes.
     pub written: u64,
-    /// Loops whose turns the code does not tell: they count once.
+    /// Loops whose number of iterations is not in the code; each counts as one iteration.
     pub loops: u64,
 }
 
-/// Time step and the numbers of the method.
+/// Time step and parameters of the method.
 #[derive(Debug, Serialize)]
 pub struct Numerics {
     /// Time step, s.
@@ -119,35 +119,35 @@ pub struct Numerics {
     pub duration: f64,
     /// Relaxation time of the viscosity, lattice units.
     pub tau: f64,
-    /// Speed that Mach and Reynolds number are of, m/s; none if nothing moves at the start.
+    /// Reference speed of the Mach and Reynolds numbers, m/s; `None` if nothing moves at the start.
     pub speed: Option<f64>,
     /// Mach number of the lattice at that speed.
     pub mach: Option<f64>,
     /// Reynolds number of a cell at that speed.
     pub cell_reynolds: Option<f64>,
-    /// Magic parameter of the odd moments everywhere.
+    /// Magic parameter of the odd moments, if it is the same everywhere.
     pub lambda: Option<f64>,
-    /// Magic parameter of the odd moments beside walls.
+    /// Magic parameter of the odd moments at walls.
     pub wall_lambda: Option<f64>,
-    /// Least rate of the odd moments beside walls.
+    /// Smallest relaxation rate of the odd moments at walls.
     pub odd_rate_floor: f64,
 }
 
-/// How long the run takes, without its output.
+/// Running time without output.
 #[derive(Debug, Serialize)]
 pub struct Time {
     /// One step, s.
     pub step: f64,
     /// All steps, s.
     pub run: f64,
-    /// Updates of fluid cells a second.
+    /// Updates of fluid cells per second.
     pub cells_a_second: f64,
     /// Steps that were timed.
     pub trial_steps: u64,
 }
 
 impl Report {
-    /// What is known of a scene after the steps that were timed.
+    /// The report on a scene after the steps of the trial.
     ///
     /// # Errors
     /// If a formula is not finite somewhere.
@@ -274,7 +274,7 @@ impl Numerics {
 }
 
 impl Report {
-    /// The report in lines of a name and what there is of it.
+    /// The report, one line per item.
     pub fn text(&self) -> String {
         let mut lines = Lines::titled(&self.title);
         lines.adapter(&self.adapter);
@@ -309,7 +309,7 @@ impl Report {
         lines.add(
             "run",
             format_args!(
-                "about {} without output: {:.3e} s a step, {:.2} million cells a second \
+                "about {} without output: {:.3e} s per step, {:.2} million cells per second \
                  ({} steps tried)",
                 duration(time.run),
                 time.step,
@@ -326,7 +326,7 @@ impl Report {
         lines.add(
             "cells",
             format_args!(
-                "{x} × {y} × {z}: {} fluid, {} solid; {} an invocation",
+                "{x} × {y} × {z}: {} fluid, {} solid; {} per invocation",
                 cells.fluid, cells.solid, cells.lanes
             ),
         );
@@ -400,7 +400,7 @@ impl Report {
 }
 
 impl Kernel {
-    /// What an invocation does, and all of them together in a step.
+    /// Work of one invocation, and of all invocations of a step.
     fn work(&self) -> String {
         let all = f64::from(self.workgroups) * f64::from(self.invocations);
         let open = match self.loops {
@@ -408,7 +408,7 @@ impl Kernel {
             n => format!("; of {n} loops one turn is counted"),
         };
         format!(
-            "an invocation: {} flop, {} B read, {} B written at most; all: {:.3e} flop, {}{open}",
+            "per invocation: {} flop, {} B read, {} B written at most; all: {:.3e} flop, {}{open}",
             self.flops,
             self.read,
             self.written,
@@ -418,7 +418,7 @@ impl Kernel {
     }
 }
 
-/// The names, those that are numbered in a row as the first and the last.
+/// The names; consecutively numbered ones are shortened to the first and the last.
 fn shorten(names: &[String]) -> String {
     let numbered: Vec<_> = names
         .iter()

@@ -4,16 +4,16 @@ use crate::run::SceneRun;
 use riprap::{Result, simulation::Kind};
 use std::time::{Duration, Instant};
 
-/// Length of the trial: enough that the start of a submission, some 0.1 ms, does not count.
+/// Length of the trial: the start of a submission, some 0.1 ms, is negligible against it.
 const LENGTH: Duration = Duration::from_millis(400);
 
 /// The steps that were timed.
 pub struct Trial {
-    /// How many.
+    /// Number of steps.
     pub steps: u64,
-    /// How long they took, s.
+    /// Time that they took, s.
     pub seconds: f64,
-    /// How the trial ended, if it did so early.
+    /// The error that ended the trial early, if any.
     pub ended: Result<()>,
 }
 
@@ -32,12 +32,12 @@ impl Trial {
     fn run(&mut self, run: &mut SceneRun) -> Result<()> {
         let kind = run.simulation.kind();
         let before = match kind {
-            // Drivers compile at the first dispatch, and the first step has no boundary passes.
+            // Drivers compile kernels at the first dispatch, and the first step has no boundary passes.
             Kind::Lattice => 4,
-            // The first step finds all pairs and their contacts anew.
+            // The first step searches all pairs and contacts from scratch.
             Kind::Rock | Kind::Particles => 1,
         };
-        // What comes after the run may fail though the run does not.
+        // Not beyond the end of the run, where steps may fail that the run does not take.
         let of_run = run.scene().run.count(run.time_step());
         let most = of_run.saturating_sub(before).max(1);
         run.advance(before)?;
@@ -57,13 +57,13 @@ impl Trial {
             batch = (2 * batch).min(most - self.steps);
         }
         match kind {
-            // What is recorded is done once it can be read.
+            // Reading the water waits for the recorded steps.
             Kind::Particles => run.water().map(drop),
             Kind::Lattice | Kind::Rock => Ok(()),
         }
     }
 
-    /// A step, s.
+    /// Time per step, s.
     pub fn step(&self) -> f64 {
         self.seconds / self.steps.max(1) as f64
     }

@@ -1,4 +1,4 @@
-//! What a scene of particles will run.
+//! Report on a scene of particles.
 
 use super::{BlockFacts, lines::Lines, trial::Trial};
 use crate::{
@@ -9,12 +9,12 @@ use crate::{
 use riprap::sph::{Particle, ReferencePosition};
 use serde::Serialize;
 
-/// All that `riprap check` says of particles.
+/// What `riprap check` reports on particles.
 #[derive(Debug, Serialize)]
 pub struct WaterReport {
     /// Title of the scene.
     pub title: String,
-    /// What it runs on.
+    /// The adapter on which it runs.
     pub adapter: Adapter,
     /// Particles of water.
     pub particles: u32,
@@ -22,13 +22,13 @@ pub struct WaterReport {
     pub shell: u32,
     /// Bytes of all particles on the device.
     pub memory: u64,
-    /// Distance of particles, m.
+    /// Particle spacing, m.
     pub spacing: f64,
-    /// Mass of one, kg.
+    /// Mass of a particle, kg.
     pub particle_mass: f64,
     /// Mass of the water, kg.
     pub mass: f64,
-    /// Largest speed that is expected, m/s.
+    /// Largest expected speed, m/s.
     pub largest_speed: f64,
     /// Speed of sound, m/s.
     pub sound_speed: f64,
@@ -45,19 +45,19 @@ pub struct WaterReport {
     /// The blocks, if there are any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<BlockFacts>,
-    /// What may disappoint.
+    /// Warnings about the scene.
     pub warnings: Vec<String>,
-    /// One step, s.
+    /// Time that one step takes, s.
     pub step_seconds: f64,
-    /// The run without its output, s.
+    /// Time that the run takes without its output, s.
     pub run_seconds: f64,
-    /// Updates of particles a second, of fluid and boundary particles.
+    /// Updates of fluid and boundary particles per second.
     pub particles_a_second: f64,
     /// Steps of the trial.
     pub trial_steps: u64,
 }
 
-/// Tries a few steps of a scene of free water; says how the trial ended if it did so early. No report of a scene without.
+/// Runs a few steps of a scene of free water. Returns how the trial ended, and a report if the scene has water.
 pub fn report(run: &mut SceneRun, adapter: Adapter) -> (Option<WaterReport>, riprap::Result<()>) {
     let steps = run.scene().run.count(run.time_step());
     let trial = Trial::of(run);
@@ -65,7 +65,7 @@ pub fn report(run: &mut SceneRun, adapter: Adapter) -> (Option<WaterReport>, rip
     let report = run.simulation.particles().map(|particles| {
         let (setup, counts) = (particles.setup(), particles.counts());
         let all = u64::from(counts.fluid) + u64::from(counts.boundary);
-        // The step before the trial took as many.
+        // The step before the trial took as many acoustic steps as each of the trial.
         let tried = particles.steps() as f64 * done as f64 / (done + 1) as f64;
         let updates = tried * all as f64;
         let left_out = run.simulation.rock().map(|rock| &*rock.setup().left_out);
@@ -103,7 +103,7 @@ pub fn report(run: &mut SceneRun, adapter: Adapter) -> (Option<WaterReport>, rip
 }
 
 impl WaterReport {
-    /// The report in lines of a name and what there is of it.
+    /// The report, one line per item.
     pub fn text(&self) -> String {
         let mut lines = Lines::titled(&self.title);
         lines.adapter(&self.adapter);
@@ -139,7 +139,7 @@ impl WaterReport {
         lines.add(
             "run",
             format_args!(
-                "about {} without output: {:.3e} s a step, {:.2} million particle updates a second, boundary particles included ({} steps tried)",
+                "about {} without output: {:.3e} s per step, {:.2} million particle updates per second, boundary particles included ({} steps tried)",
                 duration(self.run_seconds),
                 self.step_seconds,
                 self.particles_a_second / 1e6,

@@ -1,12 +1,12 @@
 //! A quantity along an edge of a plot: range, ticks and their labels.
 
-/// How values are spread along an axis.
+/// How values map to lengths along an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
-    /// Equal differences, equal lengths.
+    /// Equal differences have equal lengths.
     #[default]
     Linear,
-    /// Equal ratios, equal lengths; for positive values.
+    /// Equal ratios have equal lengths; for positive values.
     Logarithmic,
 }
 
@@ -28,7 +28,7 @@ impl Axis {
     /// An axis from `range[0]` to `range[1]`, both in `unit` (empty for a pure number).
     pub fn new(quantity: &str, unit: &str, range: [f64; 2], scale: Scale) -> Self {
         let largest = range[0].abs().max(range[1].abs());
-        // Four digits in front of the point, or two behind it, read well without a factor.
+        // Up to four digits before the decimal point, or two after it, are readable without a factor.
         let plain = largest == 0.0 || (1e-2..1e4).contains(&largest);
         let exponent = if plain || scale == Scale::Logarithmic {
             0
@@ -44,8 +44,8 @@ impl Axis {
         }
     }
 
-    /// An axis that holds all `values`, with a little room; what is not finite, or not positive on
-    /// a logarithmic scale, has no place on it.
+    /// An axis that holds all `values`, with a small margin; values that are not finite, or not positive on a logarithmic
+    /// scale, are ignored.
     pub fn around(
         quantity: &str,
         unit: &str,
@@ -67,7 +67,7 @@ impl Axis {
         Self::new(quantity, unit, range, scale)
     }
 
-    /// Where `value` lies: 0 at the axis's begin, 1 at its end.
+    /// Position of `value`: 0 at the start of the axis, 1 at its end.
     pub fn fraction(&self, value: f64) -> f64 {
         let [low, high] = self.range.map(|end| self.scale.stretch(end));
         (self.scale.stretch(value) - low) / (high - low)
@@ -83,7 +83,7 @@ impl Axis {
         self.scale.holds(value)
     }
 
-    /// The quantity with its unit, and the power of ten by which the labels are to be multiplied.
+    /// The quantity with its unit, and the power of ten by which to multiply the labels.
     pub fn title(&self) -> String {
         let factor = match self.exponent {
             0 => String::new(),
@@ -113,11 +113,11 @@ impl Axis {
         let unit = 10_f64.powi(self.exponent);
         let [low, high] = self.range.map(|end| end / unit);
         let decade = ((high - low) / most.max(1) as f64).log10().floor() as i32;
-        // The finest step whose ticks are few enough; the last one is ten times what is needed.
+        // The finest step with few enough ticks; the last candidate is ten times the required one.
         let powers = decade..=decade + 2;
         for (power, lead) in powers.flat_map(|power| [1.0, 2.0, 5.0].map(|lead| (power, lead))) {
             let step = lead * 10_f64.powi(power);
-            // Rounding must not take the tick at an end away.
+            // Rounding must not remove a tick at an end.
             let begin = (low / step - 1e-6).ceil() as i64;
             let end = (high / step + 1e-6).floor() as i64;
             if end - begin < most.max(1) as i64 {
@@ -145,7 +145,7 @@ impl Axis {
                 .map(|power| (10_f64.powi(power), power_of_ten(power)))
                 .collect();
         }
-        // Within one decade powers of ten are too few to read from.
+        // Within one decade, powers of ten alone are too few ticks.
         (begin - 1..=end)
             .flat_map(|power| [1.0, 2.0, 5.0].map(|lead| (lead, power)))
             .filter_map(|(lead, power)| {
@@ -175,14 +175,14 @@ impl Scale {
     }
 }
 
-/// Least and largest of `values`, widened where they are one and the same; 0 to 1 for none.
+/// Smallest and largest of `values`, widened if they are equal; 0 to 1 if there are none.
 pub fn extremes(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let [low, high] = values
         .filter(|value| value.is_finite())
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
             [low.min(value), high.max(value)]
         });
-    // Below the digits of an f32, which fields are made of, a span is rounding.
+    // Fields are f32: a smaller span is rounding.
     let noise = f64::from(f32::EPSILON) * low.abs().max(high.abs());
     if low > high {
         [0.0, 1.0]
@@ -212,7 +212,7 @@ fn power_of_ten(exponent: i32) -> String {
     )
 }
 
-/// `number` with the sign that is as wide as a plus, and none before zero.
+/// `number` with a minus sign as wide as a plus, and none before zero.
 fn minus(number: &str) -> String {
     match number.strip_prefix('-') {
         Some(rest) if rest.chars().all(|digit| matches!(digit, '0' | '.')) => rest.to_owned(),

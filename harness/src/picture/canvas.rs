@@ -1,5 +1,5 @@
-//! A bitmap with text, drawn three times as large as it is saved: strokes and fills have no soft
-//! edges of their own, the averaging on saving gives them theirs. Or the same strokes and texts as SVG.
+//! A bitmap with text, drawn at three times the saved resolution without anti-aliasing; averaging on saving smooths the
+//! edges. Alternatively, the same strokes and texts as SVG.
 
 use anyhow::{Context, Result, anyhow, bail};
 use plotters::coord::Shift;
@@ -13,25 +13,25 @@ use std::sync::LazyLock;
 /// Drawn pixels per saved pixel, along each axis.
 const OVERSAMPLING: u32 = 3;
 
-/// The only font, DejaVu Sans; it travels with the program, so that pictures are the same on every machine. A page
+/// The only font, DejaVu Sans; it is embedded in the program, so that pictures are the same on every machine. A page
 /// shows the texts of an SVG in its own font of this name.
 const FONT: &str = "sans-serif";
 
-/// How far digits would stand too high, in parts of the font's size: plotters centres a box that is
-/// lower than the letters it draws. Measured on this font.
+/// Downward shift of digits, relative to the font size: plotters centres a box that is lower than the letters it draws.
+/// Measured on this font.
 const SINKING: f64 = 0.17;
 
 static FONT_REGISTERED: LazyLock<bool> =
     LazyLock::new(|| register_font(FONT, FontStyle::Normal, dejavu::sans::regular()).is_ok());
 
-/// A picture in the making; lengths and places are pixels of the saved picture, y downwards.
+/// A picture being drawn; lengths and positions are pixels of the saved picture, y downwards.
 pub struct Canvas<'a> {
     width: u32,
     height: u32,
     target: Target<'a>,
 }
 
-/// What a canvas is drawn on.
+/// Output of a canvas.
 enum Target<'a> {
     /// Red, green and blue of the drawn pixels.
     Bitmap(Vec<u8>),
@@ -39,7 +39,7 @@ enum Target<'a> {
     Svg(DrawingArea<SVGBackend<'a>, Shift>),
 }
 
-/// How a text stands to the point it is drawn at.
+/// Position of a text relative to its anchor point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     /// The point is the middle of the text's left end.
@@ -63,7 +63,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// A picture that is written into `text` as SVG, complete once the canvas is dropped.
+    /// A picture that is written to `text` as SVG, complete once the canvas is dropped.
     pub fn svg(text: &'a mut String, width: u32, height: u32) -> Self {
         let size = (width * OVERSAMPLING, height * OVERSAMPLING);
         let area = SVGBackend::with_string(text, size).into_drawing_area();
@@ -87,7 +87,7 @@ impl<'a> Canvas<'a> {
         self.draw(&Rectangle::new([from, to], colour.filled()))
     }
 
-    /// Colours every drawn pixel of a bitmap between two corners after its place, given at its centre.
+    /// Colours every drawn pixel of a bitmap between two corners by its position, given at its centre.
     pub fn shade(
         &mut self,
         from: [f64; 2],
@@ -118,7 +118,7 @@ impl<'a> Canvas<'a> {
         for pair in places.windows(2) {
             self.draw(&PathElement::new(pair, colour.stroke_width(stroke)))?;
         }
-        // A stroke of the width of a saved pixel has no join that one could see.
+        // The joins of a stroke of the width of a saved pixel are not visible.
         if stroke > OVERSAMPLING {
             for &place in &places {
                 self.draw(&Circle::new(place, stroke / 2, colour.filled()))?;
@@ -252,7 +252,7 @@ fn font(size: f64) -> Result<FontDesc<'static>> {
     ))
 }
 
-/// Place of a saved pixel's corner among the drawn pixels.
+/// Position of a saved pixel's corner among the drawn pixels.
 fn pixel([x, y]: [f64; 2]) -> (i32, i32) {
     let scale = |value: f64| (value * f64::from(OVERSAMPLING)).round() as i32;
     (scale(x), scale(y))

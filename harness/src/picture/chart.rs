@@ -11,10 +11,10 @@ use std::path::Path;
 /// Space around everything and between panels, pixels.
 const MARGIN: f64 = 18.0;
 
-/// One frame of curves, or several on top of each other.
+/// One frame of curves, or several stacked ones.
 #[derive(Clone, Debug)]
 pub struct Chart {
-    /// Title above all.
+    /// Title above all frames.
     title: String,
     /// The shared horizontal axis.
     x: Measure,
@@ -24,7 +24,7 @@ pub struct Chart {
     width: u32,
     /// Height of each frame, pixels.
     panel_height: u32,
-    /// Whether the horizontal axis ends with the data, without room beside them.
+    /// Whether the horizontal axis ends with the data, without a margin.
     tight: bool,
 }
 
@@ -35,7 +35,7 @@ pub struct Measure {
     pub quantity: String,
     /// Its unit; empty for a pure number.
     pub unit: String,
-    /// Spread of the values.
+    /// Scale of the axis.
     pub scale: Scale,
 }
 
@@ -66,7 +66,7 @@ impl Track {
         }
     }
 
-    /// The same on a logarithmic scale.
+    /// The same with a logarithmic scale.
     pub fn logarithmic(quantity: &str, unit: &str, columns: &[&str]) -> Self {
         Self {
             y: Measure::logarithmic(quantity, unit),
@@ -115,7 +115,7 @@ impl Chart {
         }
     }
 
-    /// `tracks` of `table` over its column `time` (s), on top of each other, 1400 pixels wide.
+    /// `tracks` of `table` over its column `time` (s), stacked, 1400 pixels wide.
     ///
     /// # Errors
     /// If the table lacks a column.
@@ -210,7 +210,7 @@ impl Chart {
             .map(|y| frame::side(y, height))
             .collect::<Result<Vec<_>>>()?;
         let left = MARGIN + sides.into_iter().fold(0.0, f64::max);
-        // Half of the last number hangs over the end of the axis.
+        // Half of the last number extends beyond the end of the axis.
         let width = (f64::from(self.width) - left - 2.0 * MARGIN).floor();
         let legends = self
             .panels

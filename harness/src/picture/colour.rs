@@ -1,14 +1,14 @@
-//! Colours that mean a value or tell curves apart.
+//! Colours of values and of curves.
 
 use plotters::style::RGBColor;
 
 /// Cells without fluid.
 pub const SOLID: RGBColor = RGBColor(120, 120, 120);
 
-/// Cells whose value is not a number: a colour that neither map has.
+/// Cells whose value is not a number: a colour that no palette contains.
 pub const NOT_A_NUMBER: RGBColor = RGBColor(255, 0, 255);
 
-/// Colours for curves that also the colour-blind tell apart (Okabe and Ito, 2008), black first.
+/// Colours of curves that are distinguishable with colour blindness (Okabe and Ito, 2008), black first.
 pub const CURVES: [RGBColor; 8] = [
     RGBColor(0, 0, 0),
     RGBColor(213, 94, 0),
@@ -20,23 +20,23 @@ pub const CURVES: [RGBColor; 8] = [
     RGBColor(150, 140, 30),
 ];
 
-/// How a value becomes a colour.
+/// A map from values to colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Palette {
-    /// Viridis, dark blue to yellow, evenly lighter.
+    /// Viridis, dark blue to yellow, with evenly increasing lightness.
     Sequential,
-    /// Brewer's OrRd, pale over orange to dark red: for bodies under light, whose lowest value must not be black.
+    /// Brewer's OrRd, pale over orange to dark red: for shaded bodies, whose lowest value must not be black.
     FromPale,
-    /// Brewer's YlGnBu from its other end, without the darkest quarter, which has no shades left: for water under light,
-    /// which at rest must look like it.
+    /// Brewer's YlGnBu reversed, without the darkest quarter, which would hide the shading: for shaded water, which is blue
+    /// at rest.
     FromBlue,
-    /// Brewer's RdBu from its other end, blue over light grey to red, the middle being zero.
+    /// Brewer's RdBu reversed, blue over light grey to red, with zero in the middle.
     Diverging,
 }
 
 impl Palette {
-    /// The palette and range for values between the ends of `range`: around zero if both signs
-    /// matter. A side below a tenth of the other would leave half of the colours unused.
+    /// The palette and range for values between the ends of `range`: diverging around zero if both signs matter. A side below
+    /// a tenth of the other would leave half of the colours unused.
     pub fn fitting([low, high]: [f64; 2]) -> (Self, [f64; 2]) {
         let largest = high.max(-low);
         if low < 0.0 && high > 0.0 && high.min(-low) >= 0.1 * largest {
@@ -61,7 +61,7 @@ impl Palette {
         RGBColor(colour.r, colour.g, colour.b)
     }
 
-    /// The colour that lines over this palette have.
+    /// The colour of lines over this palette.
     pub fn line(self) -> RGBColor {
         match self {
             Self::Sequential => RGBColor(255, 255, 255),
@@ -71,7 +71,7 @@ impl Palette {
     }
 }
 
-/// A channel of sRGB (IEC 61966-2-1) for a part of the most light.
+/// The sRGB channel (IEC 61966-2-1) of a linear intensity from 0 to 1.
 pub fn srgb_of_linear(linear: f64) -> u8 {
     let value = if linear > 0.0031308 {
         1.055 * linear.powf(1.0 / 2.4) - 0.055
@@ -81,7 +81,7 @@ pub fn srgb_of_linear(linear: f64) -> u8 {
     (255.0 * value.clamp(0.0, 1.0)).round() as u8
 }
 
-/// The part of the most light that a channel of sRGB stands for.
+/// The linear intensity from 0 to 1 of an sRGB channel.
 pub fn linear_of_srgb(channel: u8) -> f64 {
     let value = f64::from(channel) / 255.0;
     if value > 0.04045 {

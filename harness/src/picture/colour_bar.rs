@@ -1,4 +1,4 @@
-//! The scale that tells which colour means which value.
+//! The legend of a colour map.
 
 use super::axis::{Axis, Scale, extremes};
 use super::canvas::Canvas;
@@ -22,8 +22,8 @@ pub struct ColourBar {
 }
 
 impl ColourBar {
-    /// The bar of a quantity over `range`, whose middle is special only where its ends are equal and opposite; without
-    /// one over what `values` reach, for a `length` from zero, against which alone it means something.
+    /// The bar of a quantity over `range`, diverging if its ends are equal and opposite. Without a range, over the extremes of
+    /// `values`, or from zero to their maximum for a `length`.
     pub fn fitting(
         quantity: &str,
         unit: &str,
@@ -53,7 +53,7 @@ impl ColourBar {
         self.palette.colour(self.axis.fraction(value))
     }
 
-    /// Width beside a map of `height`, pixels.
+    /// Width next to a map of `height`, pixels.
     pub fn width(&self, height: f64) -> Result<f64> {
         Ok(GAP + THICK + frame::side(&self.axis, height)?)
     }
@@ -63,7 +63,7 @@ impl ColourBar {
         0.5 * GAP + THICK + FOOT
     }
 
-    /// An upright bar to the right of `map`.
+    /// Draws a vertical bar to the right of `map`.
     pub fn draw_beside(&self, canvas: &mut Canvas<'_>, map: &Frame) -> Result<()> {
         let ([right, bottom], top) = (map.opposite(), map.corner[1]);
         let (near, far) = (right + GAP, right + GAP + THICK);
@@ -75,7 +75,7 @@ impl ColourBar {
         frame::draw_vertical(canvas, &self.axis, [top, bottom], far, [1.0, side])
     }
 
-    /// A lying bar under the x axis of `map`.
+    /// Draws a horizontal bar under the x axis of `map`.
     pub fn draw_below(&self, canvas: &mut Canvas<'_>, map: &Frame) -> Result<()> {
         let ([right, bottom], left) = (map.opposite(), map.corner[0]);
         let (near, far) = (bottom + FOOT + 0.5 * GAP, bottom + FOOT + 0.5 * GAP + THICK);

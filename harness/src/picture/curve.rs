@@ -1,4 +1,4 @@
-//! Curves in a frame, and the legend that names them.
+//! Curves in a frame, and their legend.
 
 use super::canvas::{Anchor, Canvas};
 use super::colour::CURVES;
@@ -15,18 +15,18 @@ const GAP: f64 = 10.0;
 const STROKE: f64 = 2.2;
 /// Radius of a point, pixels.
 const RADIUS: f64 = 5.0;
-/// Corners of other shapes of points, in radii.
+/// Corners of the other marker shapes, in radii.
 const SQUARE: [[f64; 2]; 4] = [[-0.9, -0.9], [0.9, -0.9], [0.9, 0.9], [-0.9, 0.9]];
 const TRIANGLE: [[f64; 2]; 3] = [[0.0, -1.2], [1.2, 1.0], [-1.2, 1.0]];
 /// Lengths of dash and gap, pixels.
 const DASH: [f64; 2] = [12.0, 8.0];
 
-/// Points to be drawn in one colour.
+/// Points drawn in one colour.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     /// Name in the legend.
     pub name: String,
-    /// Places (x, y) in the units of the axes; a gap where one is not finite.
+    /// Points (x, y) in the units of the axes; the curve has a gap at points that are not finite.
     pub points: Vec<[f64; 2]>,
     /// How they are drawn.
     pub mark: Mark,
@@ -47,7 +47,7 @@ pub enum Mark {
 }
 
 impl Curve {
-    /// Draws the curve, the `number`th of its frame, counted from 0.
+    /// Draws the curve with index `number` in its frame.
     pub fn draw(&self, canvas: &mut Canvas<'_>, frame: &Frame, number: usize) -> Result<()> {
         let holds = |[x, y]: &[f64; 2]| frame.x.holds(*x) && frame.y.holds(*y);
         for piece in self.points.split(|point| !holds(point)) {
@@ -59,7 +59,7 @@ impl Curve {
 }
 
 impl Mark {
-    /// Draws points of the `number`th curve: the colours repeat, then with another shape of points.
+    /// Draws the points of the curve with index `number`: when the colours repeat, the marker shape changes.
     fn draw(self, canvas: &mut Canvas<'_>, places: &[[f64; 2]], number: usize) -> Result<()> {
         let colour = CURVES[number % CURVES.len()];
         match self {
@@ -116,7 +116,7 @@ pub fn draw_legend(
     Ok(())
 }
 
-/// Numbers of the curves in each row, with the place of each in it, pixels.
+/// Indices of the curves in each row of the legend, with their positions in it, pixels.
 fn legend_rows(curves: &[Curve], width: f64) -> Result<Vec<Vec<(usize, f64)>>> {
     let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();
     let mut used = f64::INFINITY;

@@ -1,21 +1,21 @@
-//! Lines along a field of directions, their distances from each other, and the arrow heads on them.
+//! Field lines of a direction field, their spacing, and the arrow heads on them.
 
 use std::collections::HashMap;
 
-/// A field of unit vectors in `D` dimensions, and how lines through it are followed.
+/// A field of unit vectors in `D` dimensions, and the parameters for tracing its lines.
 pub struct Field<const D: usize, F> {
     /// The direction at a point (m); `None` where a line ends.
     pub direction: F,
     /// Length of a step, m.
     pub step: f64,
-    /// A line that comes this near to itself has closed, m.
+    /// Distance at which a line that approaches itself counts as closed, m.
     pub own: f64,
-    /// Most steps of a line, which else might never end.
+    /// Largest number of steps of a line, which might otherwise not end.
     pub most: usize,
 }
 
 impl<const D: usize, F: Fn([f64; D]) -> Option<[f64; D]>> Field<D, F> {
-    /// The line through `seed`, as far as no point of it is `blocked`: points downstream.
+    /// The line through `seed`, up to points that are `blocked`, in downstream order.
     pub fn line(&self, seed: [f64; D], blocked: impl Fn([f64; D]) -> bool) -> Vec<[f64; D]> {
         let mut line = self.half(seed, -self.step, &[], &blocked);
         line.reverse();
@@ -25,8 +25,8 @@ impl<const D: usize, F: Fn([f64; D]) -> Option<[f64; D]>> Field<D, F> {
         line
     }
 
-    /// Points after `seed` at steps of the signed length `step` (m), until the field ends, a place is blocked, or the
-    /// line closes; `upstream` is the other half of the same line.
+    /// Points after `seed` at steps of the signed length `step` (m), until the field ends, a point is blocked, or the line
+    /// closes; `upstream` is the other half of the same line.
     fn half(
         &self,
         seed: [f64; D],
@@ -34,7 +34,7 @@ impl<const D: usize, F: Fn([f64; D]) -> Option<[f64; D]>> Field<D, F> {
         upstream: &[[f64; D]],
         blocked: impl Fn([f64; D]) -> bool,
     ) -> Vec<[f64; D]> {
-        // Along the line, a point is near to its neighbours without the line closing.
+        // Neighbours along the line are near each other although the line is not closed.
         let skip = (2.0 * self.own / self.step).ceil() as usize + 1;
         let mut whole = upstream.to_vec();
         whole.push(seed);
@@ -74,14 +74,14 @@ impl<const D: usize, F: Fn([f64; D]) -> Option<[f64; D]>> Field<D, F> {
     }
 }
 
-/// Points of `D` coordinates, sorted into bins to find those near a place.
+/// Points of `D` coordinates, sorted into bins for neighbour searches.
 pub struct Taken<const D: usize> {
     bin: f64,
     points: HashMap<[i64; D], Vec<[f64; D]>>,
 }
 
 impl<const D: usize> Taken<D> {
-    /// For distances up to `bin` (m).
+    /// Bins for searches up to the distance `bin` (m).
     pub fn new(bin: f64) -> Self {
         Self {
             bin,
@@ -125,13 +125,13 @@ fn square<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
 
 /// An arrow head.
 pub struct Arrow<const D: usize> {
-    /// Number of the point that it stands at.
+    /// Index of its point on the line.
     pub point: usize,
     /// Direction, a unit vector.
     pub towards: [f64; D],
 }
 
-/// Arrow heads on a line in `D` dimensions, about `apart` from each other, one at least.
+/// Arrow heads on a line in `D` dimensions, about `apart` from each other, at least one.
 pub fn arrows<const D: usize>(points: &[[f64; D]], apart: f64) -> Vec<Arrow<D>> {
     let length = |pair: &[[f64; D]]| {
         let square = (0..D).map(|axis| (pair[1][axis] - pair[0][axis]).powi(2));

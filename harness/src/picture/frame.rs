@@ -5,13 +5,13 @@ use super::canvas::{Anchor, Canvas};
 use anyhow::Result;
 use plotters::style::RGBColor;
 
-/// Height of labels and ticks' numbers, pixels.
+/// Height of labels and tick numbers, pixels.
 pub const TEXT: f64 = 20.0;
 /// Height of a picture's title, pixels.
 pub const TITLE: f64 = 25.0;
 /// Colour of text and edges.
 pub const INK: RGBColor = RGBColor(38, 38, 38);
-/// Colour of the lines behind curves.
+/// Colour of the grid lines behind curves.
 const GRID: RGBColor = RGBColor(225, 225, 225);
 /// Length of a tick, pixels.
 const TICK: f64 = 6.0;
@@ -103,8 +103,8 @@ pub fn draw_horizontal(
     Ok(())
 }
 
-/// Ticks, numbers and title of a vertical axis between `top` and `bottom`, beside the edge at `x`: left of it if `outwards`
-/// is −1, right of it if 1, on the width `side`.
+/// Ticks, numbers and title of a vertical axis between `top` and `bottom`, next to the edge at `x`: left of it if `outwards`
+/// is −1, right of it if 1, within the width `side`.
 pub fn draw_vertical(
     canvas: &mut Canvas<'_>,
     axis: &Axis,
@@ -131,7 +131,7 @@ pub fn draw_vertical(
     canvas.text(&title, at, size, Anchor::Upwards, INK)
 }
 
-/// Width that ticks, numbers and title of a vertical axis of `height` take beside it, pixels.
+/// Width of ticks, numbers and title of a vertical axis of `height`, pixels.
 pub fn side(axis: &Axis, height: f64) -> Result<f64> {
     let widths = y_ticks(axis, height)
         .iter()
@@ -141,14 +141,14 @@ pub fn side(axis: &Axis, height: f64) -> Result<f64> {
     Ok(TICK + GAP + widest + GAP + TEXT + 2.0 * GAP)
 }
 
-/// As many ticks as have room for their numbers along `width` pixels.
+/// As many ticks as their numbers fit along `width` pixels.
 fn x_ticks(axis: &Axis, width: f64) -> Result<Vec<Tick>> {
-    // More than ten numbers say nothing more.
+    // More than ten numbers do not help the reader.
     for most in (3..=10).rev() {
         let ticks = axis.ticks(most);
         let mut room = 0.0;
         for (_, label) in &ticks {
-            // Two digits' width between neighbours keeps numbers apart.
+            // The width of two digits keeps neighbouring numbers apart.
             room += Canvas::text_width(label, TEXT)? + 1.5 * TEXT;
         }
         if room <= width {
@@ -158,7 +158,7 @@ fn x_ticks(axis: &Axis, width: f64) -> Result<Vec<Tick>> {
     Ok(axis.ticks(2))
 }
 
-/// As many ticks as have room for their numbers along `height` pixels.
+/// As many ticks as their numbers fit along `height` pixels.
 fn y_ticks(axis: &Axis, height: f64) -> Vec<Tick> {
     axis.ticks(((height / (1.8 * TEXT)) as usize).clamp(2, 10))
 }
@@ -169,9 +169,9 @@ pub fn border(canvas: &mut Canvas<'_>, from: [f64; 2], to: [f64; 2]) -> Result<(
     canvas.line(&corners, 1.0, INK)
 }
 
-/// `size`, or the smaller one at which `text` is not longer than `length` pixels.
+/// `size`, or a smaller one at which `text` is at most `length` pixels long.
 pub fn fitting(text: &str, size: f64, length: f64) -> Result<f64> {
     let width = Canvas::text_width(text, size)?;
-    // Smaller than half nobody reads.
+    // Less than half of the size is not readable.
     Ok(size * (length / width).clamp(0.5, 1.0))
 }

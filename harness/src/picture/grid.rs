@@ -1,4 +1,4 @@
-//! Grids of coloured squares with a word in each: maps over two lists of values.
+//! Grids of coloured and labelled squares: maps over two lists of values.
 
 use super::canvas::{Anchor, Canvas};
 use super::frame::{INK, TITLE, border, fitting};
@@ -6,27 +6,27 @@ use anyhow::Result;
 use plotters::style::RGBColor;
 use std::path::Path;
 
-/// Height of the words beside squares, pixels.
+/// Height of the text next to squares, pixels.
 const TEXT: f64 = 16.0;
-/// Height of the words in squares, pixels.
+/// Height of the text in squares, pixels.
 const LABEL: f64 = 14.0;
-/// A square, pixels: room for a word of seven letters.
+/// Size of a square, pixels: room for a word of seven letters.
 const SQUARE: [f64; 2] = [70.0, 27.0];
 /// Space around everything and between panels, pixels.
 const MARGIN: f64 = 18.0;
-/// Panels side by side where their squares are few: what fits on a screen, pixels.
+/// Largest width of panels in a row, pixels: the width of a screen.
 const WIDEST: f64 = 1700.0;
 
 /// A picture of one or more grids over the same two lists.
 #[derive(Clone, Debug)]
 pub struct ColourGrid {
-    /// Title above all.
+    /// Title above all panels.
     pub title: String,
     /// What varies along the columns, with its unit.
     pub x: String,
     /// What varies along the rows, with its unit.
     pub y: String,
-    /// What the words in the squares are.
+    /// Meaning of the texts in the squares.
     pub quantity: String,
     /// The values of the columns, from left to right.
     pub columns: Vec<String>,
@@ -34,16 +34,16 @@ pub struct ColourGrid {
     pub rows: Vec<String>,
     /// The grids.
     pub panels: Vec<GridPanel>,
-    /// What colours mean.
+    /// Names of the colours.
     pub key: Vec<(String, RGBColor)>,
 }
 
 /// One grid.
 #[derive(Clone, Debug)]
 pub struct GridPanel {
-    /// Name above it; may be empty.
+    /// Name above the grid; may be empty.
     pub title: String,
-    /// Row by row; none where nothing is known.
+    /// Row by row; `None` for unknown values.
     pub squares: Vec<Option<Square>>,
 }
 
@@ -52,21 +52,21 @@ pub struct GridPanel {
 pub struct Square {
     /// Its colour.
     pub colour: RGBColor,
-    /// The word in it.
+    /// The text in it.
     pub label: String,
-    /// Whether a dot stands in its corner.
+    /// Whether its corner is marked by a dot.
     pub marked: bool,
     /// Whether it has a thick frame.
     pub framed: bool,
 }
 
 impl ColourGrid {
-    /// Draws it into a PNG file.
+    /// Draws the grids into a PNG file.
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn draw(&self, path: &Path) -> Result<()> {
-        // Row names, and the name of the axis upwards beside them.
+        // Row names, and the vertical name of the axis next to them.
         let side = self.widest_row()? + TEXT + 3.0 * 6.0;
         let size = [
             side + self.columns.len() as f64 * SQUARE[0] + MARGIN,

@@ -1,4 +1,4 @@
-//! Blocks that a plane cuts.
+//! Blocks that a plane intersects.
 
 use super::section::Plane;
 use glam::{DMat3, DVec2, DVec3};
@@ -6,24 +6,24 @@ use riprap::geometry::Form;
 use riprap::output::Image;
 use std::f64::consts::TAU;
 
-/// Corners of the polygon that a sphere's cut is drawn as: off the circle by r(1 − cos π/96), less than half a
+/// Corners of the polygon by which the section of a sphere is drawn: off the circle by r(1 − cos π/96), less than half a
 /// pixel for all that fit a picture.
 const AROUND: usize = 96;
 
-/// A convex part of a block, somewhere.
+/// A convex part of a block at its position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placed<'a> {
-    /// Its shape, about its own centroid.
+    /// Its shape relative to its own centroid.
     pub form: &'a Form,
-    /// Place of that centroid, m.
+    /// Position of that centroid, m.
     pub centre: DVec3,
-    /// F: a point X of the form is at `centre` + F X.
+    /// Deformation gradient F: a point X of the form is at `centre` + F X.
     pub deformation: DMat3,
 }
 
 impl Placed<'_> {
-    /// The convex polygon that `plane` cuts out of it, m along the two other axes in their order; `None` where the
-    /// plane misses it.
+    /// The convex polygon in which `plane` intersects the part, m along the two other axes in their order; `None` if it does
+    /// not.
     pub fn outline(&self, plane: Plane) -> Option<Vec<[f64; 2]>> {
         let points = match self.form {
             Form::Convex(block) => self.crossings(block.vertices(), block.edges(), plane),
@@ -34,7 +34,7 @@ impl Placed<'_> {
         around(flat.collect())
     }
 
-    /// Where edges of a polyhedron pass through the plane.
+    /// Intersections of the edges of a polyhedron with the plane.
     fn crossings(&self, vertices: &[DVec3], edges: &[[u32; 2]], plane: Plane) -> Vec<DVec3> {
         let place = |x: &DVec3| self.centre + self.deformation * *x;
         let corners: Vec<DVec3> = vertices.iter().map(place).collect();
@@ -50,13 +50,13 @@ impl Placed<'_> {
         .collect()
     }
 
-    /// In the frame of the form the plane n·x = p is (Fᵀn)·X = p − n·centre, which cuts a circle out of the sphere.
+    /// The circle in which the plane intersects a sphere: in the frame of the form the plane n·x = p is (Fᵀn)·X = p − n·centre.
     fn circle(&self, radius: f64, plane: Plane) -> Vec<DVec3> {
         let normal = self.deformation.row(plane.normal);
         let middle =
             (plane.position - self.centre[plane.normal]) / normal.length_squared() * normal;
         let square = radius * radius - middle.length_squared();
-        // Also where the normal is no number.
+        // NaN if the normal is not finite.
         if square.is_nan() || square <= 0.0 {
             return Vec::new();
         }
@@ -78,7 +78,7 @@ impl Placed<'_> {
         }
     }
 
-    /// Least and largest coordinates, m.
+    /// Smallest and largest coordinates, m.
     pub fn bounds(&self) -> [DVec3; 2] {
         let half = match self.form {
             Form::Convex(block) => {
@@ -89,7 +89,7 @@ impl Placed<'_> {
                     });
                 return [self.centre + low, self.centre + high];
             }
-            // Along n the farthest point of the ellipsoid F X, |X| = r, is r |Fᵀn| away.
+            // The farthest point of the ellipsoid F X, |X| = r, along n is at the distance r |Fᵀn|.
             Form::Sphere { radius } => DVec3::from_array(
                 [0, 1, 2].map(|axis| radius * self.deformation.row(axis).length()),
             ),
@@ -98,7 +98,7 @@ impl Placed<'_> {
     }
 }
 
-/// Which cells of `image` have their centres in one of `blocks`.
+/// For each cell of `image`, whether its centre is in one of `blocks`.
 pub fn cells_in(image: &Image, blocks: &[Placed<'_>]) -> Vec<bool> {
     let mut inside = vec![false; image.cell_count()];
     for block in blocks {
@@ -125,7 +125,7 @@ pub fn cells_in(image: &Image, blocks: &[Placed<'_>]) -> Vec<bool> {
     inside
 }
 
-/// Corners of a convex polygon in their order around it; `None` if they enclose nothing.
+/// Corners of a convex polygon in their order around it; `None` if they enclose no area.
 fn around(mut corners: Vec<DVec2>) -> Option<Vec<[f64; 2]>> {
     let middle = corners.iter().sum::<DVec2>() / corners.len().max(1) as f64;
     let angle = |corner: &DVec2| (*corner - middle).to_angle();

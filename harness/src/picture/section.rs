@@ -1,4 +1,4 @@
-//! A plane cut out of an image.
+//! A plane section of an image.
 
 use super::placed::{Placed, cells_in};
 use anyhow::{Context, Result, bail};
@@ -9,12 +9,12 @@ use riprap::output::{Array, Image};
 pub struct Plane {
     /// The axis it is normal to: 0 for x, 1 for y, 2 for z.
     pub normal: usize,
-    /// Where it cuts that axis, m.
+    /// Its coordinate along that axis, m.
     pub position: f64,
 }
 
 impl Plane {
-    /// The axes that lie in it, in their order.
+    /// The axes that lie in the plane, in their order.
     pub fn others(&self) -> [usize; 2] {
         match self.normal {
             0 => [1, 2],
@@ -24,7 +24,7 @@ impl Plane {
     }
 }
 
-/// What is shown of an array.
+/// The quantity taken from an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity<'a> {
     /// The array of scalars of this name.
@@ -55,12 +55,12 @@ pub struct Section {
     /// Cells whose centres lie in blocks, of which there are none before [`Self::leave_out`].
     pub in_blocks: Vec<bool>,
     plane: Plane,
-    /// The layer of cells that the plane passes through; its array `solid` is what is no fluid.
+    /// The layer of cells that the plane passes through; its array `solid` marks all cells without fluid.
     layer: Image,
 }
 
 impl Section {
-    /// Cuts `image` by `plane`, cell values as they are.
+    /// Cuts `image` by `plane`, without interpolation of cell values.
     pub fn new(image: &Image, plane: Plane, quantity: Quantity<'_>) -> Result<Self> {
         if plane.normal > 2 {
             let axis = plane.normal;
@@ -119,7 +119,7 @@ impl Section {
         Ok(section)
     }
 
-    /// Keeps the velocity of what is no fluid out of that beside it.
+    /// Marks cells without fluid, so that their velocity does not enter that of neighbouring cells.
     fn mark_solid(&mut self) {
         self.layer.arrays.retain(|array| array.name != "solid");
         let solid = (0..self.values.len()).map(|cell| f32::from(!self.is_fluid(cell)));
@@ -141,7 +141,7 @@ impl Section {
         [0, 1].map(|axis| self.origin[axis] + self.spacing * self.cells[axis] as f64)
     }
 
-    /// Number of the cell around `point` (m), if it lies inside.
+    /// Index of the cell around `point` (m), if it lies inside.
     pub fn cell(&self, point: [f64; 2]) -> Option<usize> {
         let [u, v] = [0, 1].map(|axis| {
             let place = ((point[axis] - self.origin[axis]) / self.spacing).floor();
@@ -150,8 +150,8 @@ impl Section {
         Some(u? + self.cells[0] * v?)
     }
 
-    /// Takes the cells whose centres lie in `blocks` out of the fluid. What such a cell shows outside of its block is what
-    /// the fluid beside it has: the mean of its neighbours, and without any it is not a number.
+    /// Takes the cells whose centres lie in `blocks` out of the fluid. The part of such a cell outside of its block shows the
+    /// mean of the neighbouring fluid cells, and NaN if there are none.
     pub fn leave_out(&mut self, blocks: &[Placed<'_>]) {
         self.in_blocks = cells_in(&self.layer, blocks);
         self.mark_solid();
@@ -164,7 +164,7 @@ impl Section {
         }
     }
 
-    /// The cells that touch a cell, and the cell.
+    /// The cells that touch a cell, and the cell itself.
     fn around(&self, cell: usize) -> impl Iterator<Item = usize> {
         let [columns, rows] = self.cells;
         let near = |place: usize, count: usize| place.saturating_sub(1)..(place + 2).min(count);
@@ -177,8 +177,8 @@ impl Section {
         !self.solid[cell] && !self.in_blocks[cell]
     }
 
-    /// Velocity (m/s) at `point` (m), bilinear between the centres of fluid cells; `None` in
-    /// another cell, outside, or without velocity.
+    /// Velocity (m/s) at `point` (m), bilinear between the centres of fluid cells; `None` in another cell, outside, or
+    /// without velocity.
     pub fn velocity_at(&self, point: [f64; 2]) -> Option<[f64; 2]> {
         if !self.is_fluid(self.cell(point)?) {
             return None;
@@ -193,7 +193,7 @@ impl Section {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The array that `quantity` is taken from, once it is known to fit.
+/// The array of `quantity`, after a check that it fits.
 fn array<'a>(image: &'a Image, quantity: Quantity<'_>) -> Result<&'a Array> {
     let (Quantity::Scalar(name) | Quantity::Magnitude(name)) = quantity;
     let array = image.array(name).with_context(|| {

@@ -1,4 +1,4 @@
-//! A quantity on a plane through the flow, as a map of colours.
+//! A quantity on a plane through the flow, as a colour map.
 
 use super::axis::{Axis, Scale};
 use super::canvas::{Anchor, Canvas};
@@ -15,40 +15,39 @@ use std::path::Path;
 
 /// Width of the picture, pixels.
 const WIDTH: f64 = 1400.0;
-/// Greatest height of the map, pixels; a higher one would not fit a page or a screen.
+/// Largest height of the map, pixels; a higher one would not fit a page or a screen.
 const HIGHEST: f64 = 1000.0;
 /// Space around everything, pixels.
 const MARGIN: f64 = 16.0;
-/// Below this ratio of height to width the colour bar lies under the map instead of beside it.
+/// Ratio of height to width below which the colour bar is under the map instead of next to it.
 const FLAT: f64 = 0.35;
-/// Distance between streamlines in parts of the map's longer edge; about 35 across it.
+/// Distance between streamlines relative to the map's longer edge; about 35 across it.
 const SEPARATION: f64 = 1.0 / 35.0;
 /// Width of the outline of a block, pixels.
 const OUTLINE: f64 = 2.0;
-/// Arrow heads on a streamline are this many distances between lines apart.
+/// Distance between arrow heads on a streamline, in distances between streamlines.
 const ARROWS: f64 = 10.0;
 
-/// What to show, and in which words.
+/// Content and labels of a slice.
 #[derive(Clone, Debug)]
 pub struct Slice<'a> {
     /// Title above the map; the plane and the time are added to it.
     pub title: &'a str,
     /// Time of the image, s.
     pub time: f64,
-    /// The cut.
+    /// The plane.
     pub plane: Plane,
-    /// What is shown on it.
+    /// The quantity on the plane.
     pub quantity: Quantity<'a>,
-    /// The quantity's name beside the colours.
+    /// Name of the quantity at the colour bar.
     pub label: &'a str,
-    /// The quantity's unit.
+    /// Unit of the quantity.
     pub unit: &'a str,
-    /// Values at the ends of the colours, in that unit, the middle being special only where the ends
-    /// are equal and opposite; from the fluid's extremes if `None`.
+    /// Range of the colours in that unit, diverging if the ends are equal and opposite; the fluid's extremes if `None`.
     pub range: Option<[f64; 2]>,
     /// Whether to draw streamlines of the velocity in the plane.
     pub streamlines: bool,
-    /// Blocks whose cuts are drawn over the fluid.
+    /// Blocks whose sections are drawn over the fluid.
     pub blocks: &'a [Placed<'a>],
 }
 
@@ -61,9 +60,9 @@ impl Slice<'_> {
         let bar = ColourBar::fitting(self.label, self.unit, self.range, section.fluid(), length)?;
         let (mut canvas, map) = self.layout(&section, &bar)?;
         let opposite = map.opposite();
-        // A cell has many pixels.
+        // A cell covers many pixels.
         let colour = |cell: usize| {
-            // Blocks have their own outlines, also where the image calls their cells solid.
+            // Blocks have their own outlines, also if the image marks their cells as solid.
             if !section.solid[cell] || section.in_blocks[cell] {
                 bar.colour(section.values[cell])
             } else {
@@ -98,7 +97,7 @@ impl Slice<'_> {
         let head = MARGIN + TITLE + MARGIN;
         let left = (MARGIN + frame::side(&y, HIGHEST)?).ceil();
         let right = if flat {
-            // Half of a number hangs over the end of the axis.
+            // Half of a number extends beyond the end of the axis.
             MARGIN + 2.0 * TEXT
         } else {
             (bar.width(HIGHEST)? + MARGIN).ceil()
@@ -108,10 +107,10 @@ impl Slice<'_> {
         if height > HIGHEST {
             (width, height) = (HIGHEST / ratio, HIGHEST);
         }
-        // Whole pixels, so that edges are sharp; the ratio is off by less than one of them.
+        // Whole pixels make edges sharp; the ratio is off by less than one of them.
         let [width, height] = [width, height].map(|length| length.round().max(1.0));
         let plane = match section.layers {
-            // A flow of two dimensions has no other plane.
+            // A two-dimensional flow has a single plane.
             1 => String::new(),
             _ => format!(", {} = {} m", section.normal, short(self.plane.position)),
         };
@@ -140,7 +139,7 @@ impl Slice<'_> {
     }
 }
 
-/// The cut through a block, as far as it lies in the map.
+/// Draws the section of a block, clipped to the map.
 fn draw_block(
     canvas: &mut Canvas<'_>,
     map: &Frame,
@@ -157,7 +156,7 @@ fn draw_block(
     canvas.line(&closed, OUTLINE, INK)
 }
 
-/// A convex polygon without what lies outside of the box from `low` to `high` (Sutherland and Hodgman, 1974).
+/// A convex polygon clipped to the box from `low` to `high` (Sutherland and Hodgman, 1974).
 fn clipped(polygon: &[[f64; 2]], low: [f64; 2], high: [f64; 2]) -> Vec<[f64; 2]> {
     let mut left = polygon.to_vec();
     for (axis, sign, edge) in [
@@ -190,7 +189,7 @@ fn draw_streamlines(
     palette: Palette,
 ) -> Result<()> {
     let longest = section.cells[0].max(section.cells[1]) as f64 * section.spacing;
-    // Nearer than two cells the lines would show the grid, not the flow.
+    // Lines closer than two cells would show the grid, not the flow.
     let separation = (SEPARATION * longest).max(2.0 * section.spacing);
     let colour = palette.line();
     for line in streamlines(section, separation) {
@@ -218,7 +217,7 @@ fn draw_streamlines(
     Ok(())
 }
 
-/// A number in a title: four digits, without zeros at the end.
+/// A number in a title: four digits, without trailing zeros.
 pub fn short(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
         return format!("{value:.3e}");

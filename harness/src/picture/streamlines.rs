@@ -1,25 +1,23 @@
-//! Streamlines at even distances (Jobard and Lefer, 1997, "Creating evenly-spaced streamlines of
-//! arbitrary density"): each new line begins at a set distance from one already there, and ends
-//! where it would come nearer than half of that to another.
+//! Evenly spaced streamlines (Jobard and Lefer, 1997, "Creating evenly-spaced streamlines of arbitrary density"): each new
+//! line begins at a set distance from an existing one, and ends where it would come nearer than half of that to another.
 
 use super::field_lines::{Field, Taken};
 use super::section::Section;
 use std::collections::VecDeque;
 
-/// How near a line may come to others, in parts of the distance at which lines begin; the paper's
-/// own choice.
+/// Smallest distance between lines, relative to the distance at which lines begin; the value of the paper.
 const NEAREST: f64 = 0.5;
-/// How near a line may come to itself: less, so that a closed one looks closed.
+/// Smallest distance of a line from itself: less, so that a closed line looks closed.
 const NEAREST_SELF: f64 = 0.15;
-/// Length of the shortest line worth drawing, in the same parts.
+/// Length of the shortest line worth drawing, in the same unit.
 const SHORTEST: f64 = 2.0;
-/// Steps in parts of a cell: bilinear velocity bends little within half of one.
+/// Step relative to the cell size: bilinear velocity bends little within half a cell.
 const STEP: f64 = 0.5;
-/// Water slower than this part of the fastest has no direction that f32 data could tell.
+/// Fraction of the largest speed below which f32 data does not resolve the direction.
 const STILL: f64 = 1e-5;
 
-/// Lines along the velocity in `section`, `separation` (m) apart, each a list of points (m)
-/// downstream; none where the section has no velocity.
+/// Lines along the velocity in `section`, `separation` (m) apart, each a list of points (m) downstream; none if the
+/// section has no velocity.
 pub fn streamlines(section: &Section, separation: f64) -> Vec<Vec<[f64; 2]>> {
     let cells = 0..section.values.len();
     let speeds = cells.clone().filter_map(|cell| {
@@ -36,8 +34,7 @@ pub fn streamlines(section: &Section, separation: f64) -> Vec<Vec<[f64; 2]>> {
         taken: Taken::new(separation),
         lines: Vec::new(),
     };
-    // Seeds beside lines first, since they pack best; then every cell that is still far from all,
-    // for water that turns by itself.
+    // Seeds next to lines first, since they pack best; then every cell that is still far from all lines, for closed eddies.
     let mut next = VecDeque::new();
     for cell in std::iter::once(fastest).chain(cells) {
         tracer.seed(centre(section, cell), &mut next);
@@ -55,12 +52,12 @@ fn centre(section: &Section, cell: usize) -> [f64; 2] {
     [0, 1].map(|axis| section.origin[axis] + section.spacing * (place[axis] as f64 + 0.5))
 }
 
-/// Points at `separation` on both sides of a line.
+/// Points at the distance `separation` on both sides of a line.
 fn beside(line: &[[f64; 2]], separation: f64) -> Vec<[f64; 2]> {
     line.windows(2)
         .flat_map(|pair| {
             let [dx, dy] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-            // A hair further, so that rounding does not make the seed too near to its own line.
+            // Slightly further, so that rounding does not put the seed too near to its own line.
             let shift = 1.001 * separation / dx.hypot(dy);
             [shift, -shift].map(|shift| [pair[0][0] - shift * dy, pair[0][1] + shift * dx])
         })
@@ -76,8 +73,8 @@ struct Tracer<'a> {
 }
 
 impl Tracer<'_> {
-    /// Traces the line through `seed` if that is far enough from all lines, and keeps it if it is
-    /// long enough to show a direction.
+    /// Traces the line through `seed` if that is far enough from all lines, and keeps it if it is long enough to show a
+    /// direction.
     fn seed(&mut self, seed: [f64; 2], next: &mut VecDeque<usize>) {
         if self.direction(seed).is_none() || self.taken.near(seed, self.separation) {
             return;
@@ -86,7 +83,7 @@ impl Tracer<'_> {
             direction: |point| self.direction(point),
             step: STEP * self.section.spacing,
             own: NEAREST_SELF * self.separation,
-            // A line longer than all cells is one that cannot end.
+            // A line longer than all cells does not end.
             most: 2 * self.section.values.len(),
         };
         let nearest = NEAREST * self.separation;

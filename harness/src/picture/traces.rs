@@ -1,27 +1,27 @@
-//! Lines along a flow in space.
+//! Streamlines in space.
 
 use super::field_lines::{Field, Taken};
 use super::placed::{Placed, cells_in};
 use glam::DVec3;
 use riprap::output::Image;
 
-/// Steps in parts of a cell: trilinear velocity bends little within half of one.
+/// Step relative to the cell size: trilinear velocity bends little within half a cell.
 const STEP: f64 = 0.5;
-/// Water slower than this part of the fastest has no direction that f32 data could tell.
+/// Fraction of the largest speed below which f32 data does not resolve the direction.
 const STILL: f64 = 1e-5;
-/// Places that are tried for each line.
+/// Number of seeds tried for each line.
 const TRIES: u32 = 16;
-/// How far seeds keep from lines, in parts of the distance that as many lines through the whole box would have:
-/// few keep so far that lines leave holes, and most lines find a place.
+/// Smallest distance of seeds from lines, relative to the distance between that many lines through the whole box: small
+/// enough that most lines find a seed, large enough that they leave few holes.
 const APART: f64 = 0.5;
-/// How near a line may come to itself in parts of that distance.
+/// Smallest distance of a line from itself, relative to that distance.
 const NEAREST_SELF: f64 = 0.15;
-/// Shortest line, in parts of that distance: anything less shows no direction.
+/// Length of the shortest line, relative to that distance: a shorter one shows no direction.
 const SHORTEST: f64 = 0.5;
-/// Longest line, in edges of a cube as large as the box.
+/// Length of the longest line, in edges of a cube with the volume of the box.
 const LONGEST: f64 = 10.0;
 
-/// A line along the flow.
+/// A streamline.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
     /// Points downstream, m.
@@ -30,8 +30,8 @@ pub struct Trace {
     pub speeds: Vec<f64>,
 }
 
-/// At most `count` lines along the array `velocity` of `image`, spread over its fluid: cells that are neither solid
-/// nor in one of `blocks`. None where there is no such array, or nothing moves.
+/// At most `count` streamlines of the array `velocity` of `image`, spread over its fluid: cells that are neither solid
+/// nor in one of `blocks`. None if there is no such array, or nothing moves.
 pub fn traces(image: &Image, blocks: &[Placed<'_>], count: u32) -> Vec<Trace> {
     let Some(flow) = Flow::new(image, blocks) else {
         return Vec::new();
@@ -133,7 +133,7 @@ fn length(vector: &[f32]) -> f64 {
     vector.iter().map(square).sum::<f64>().sqrt()
 }
 
-/// The radical inverse of `number`: in three prime bases, points that fill a box evenly (Halton, 1960).
+/// The radical inverse of `number`: three prime bases give points that fill a box evenly (Halton, 1960).
 fn halton(mut number: u32, base: u32) -> f64 {
     let mut sum = 0.0;
     let mut part = 1.0;

@@ -1,4 +1,4 @@
-//! Title, time, colour bars and scale bar around a view, or around several of them side by side.
+//! Title, time, colour bars and scale bar around a view, or around several views next to each other.
 
 use super::camera::Camera;
 use super::drawing::Drawing;
@@ -13,23 +13,23 @@ use crate::picture::{Axis, Scale};
 use anyhow::{Result, bail};
 use plotters::style::RGBColor;
 
-/// Around text, pixels.
+/// Margin around text, pixels.
 const MARGIN: f64 = 18.0;
-/// Part of the view's height that a colour bar takes.
+/// Height of a colour bar relative to the view's.
 const BAR: f64 = 0.7;
-/// Width that the scale bar has at most, in parts of the view's.
+/// Largest width of the scale bar relative to the view's.
 const SCALE_BAR: f64 = 0.2;
 /// Half of the height of the scale bar's ends, pixels.
 const SCALE_BAR_END: f64 = 5.0;
 /// Smallest view, pixels.
 const LEAST: f64 = 16.0;
 
-/// Where things are in a picture.
+/// Positions of the elements of a picture.
 pub struct Layout {
     size: [u32; 2],
     /// Height above the view for the title.
     head: f64,
-    /// Width beside the view for the colour bars.
+    /// Width next to the view for the colour bars.
     side: f64,
     bars: Vec<ColourBar>,
 }
@@ -66,7 +66,7 @@ impl Layout {
         [width - self.side as u32, height - self.head as u32]
     }
 
-    /// The picture with all that is beside and over its view.
+    /// Adds the annotations around and over the view.
     pub fn finish(
         &self,
         drawing: &Drawing<'_>,
@@ -84,7 +84,7 @@ impl Layout {
         Ok(picture(&canvas, self.size))
     }
 
-    /// Title on the left, time on the right.
+    /// Draws the title on the left and the time on the right.
     fn title(&self, canvas: &mut Canvas<'_>, drawing: &Drawing<'_>) -> Result<()> {
         let width = f64::from(self.size[0]);
         let middle = MARGIN + 0.5 * TITLE;
@@ -103,7 +103,7 @@ impl Layout {
     }
 }
 
-/// Width that colour bars of this height take beside a view, pixels.
+/// Width of colour bars of this height next to a view, pixels.
 fn bars_width(bars: &[ColourBar], height: f64) -> Result<f64> {
     let widths = bars.iter().map(|bar| bar.width(height));
     widths.sum()
@@ -142,7 +142,7 @@ fn paste(canvas: &mut Canvas<'_>, picture: &Picture, [left, top]: [f64; 2]) {
     });
 }
 
-/// What was drawn on the canvas.
+/// The canvas as a picture.
 fn picture(canvas: &Canvas<'_>, [width, height]: [u32; 2]) -> Picture {
     let pixels = canvas.rgb();
     let pixels = pixels.chunks_exact(3);
@@ -153,7 +153,7 @@ fn picture(canvas: &Canvas<'_>, [width, height]: [u32; 2]) -> Picture {
     }
 }
 
-/// A bar in the lower left corner of a view, with its length in metres at the camera's target.
+/// Draws a bar in the lower left corner of a view, with its length in metres at the camera's target.
 fn scale_bar(
     canvas: &mut Canvas<'_>,
     camera: &Camera,
@@ -180,27 +180,27 @@ fn scale(camera: &Camera, [width, height]: [u32; 2]) -> (f64, f64) {
     (length, length * pixels_per_metre)
 }
 
-/// A time as it is drawn.
+/// A time as text.
 fn time_stamp(time: f64) -> String {
     format!("t = {} s", crate::picture::short(time))
 }
 
-/// 1, 2 or 5 times a power of ten without rounding's digits.
+/// 1, 2 or 5 times a power of ten, without digits from rounding.
 fn decimal(value: f64) -> String {
     let decimals = (-value.log10().floor()).max(0.0) as usize;
     format!("{value:.decimals$}")
 }
 
-/// Between frames and around text, pixels.
+/// Gap between frames and around text, pixels.
 const GAP: f64 = 12.0;
 
 impl Renderer {
-    /// Drawings as the frames of one picture, `columns` in a row, each of the renderer's size with its
-    /// time above; title, colour bars and scale bar are those of the first.
+    /// Drawings as the frames of one picture, `columns` in a row, each of the renderer's size with its time above; title,
+    /// colour bars and scale bar are those of the first.
     ///
     /// # Errors
-    /// Those of [`Self::render`]; if there is no drawing or no column; if the drawings' colours mean
-    /// different values.
+    /// Returns the errors of [`Self::render`], and an error if there is no drawing or no column, or if the drawings' colours
+    /// have different meanings.
     pub fn strip(&self, drawings: &[Drawing<'_>], columns: usize) -> Result<Picture> {
         let Some(first) = drawings.first().filter(|_| columns > 0) else {
             bail!("a strip of no frames or no columns; give one at least");

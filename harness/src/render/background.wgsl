@@ -1,4 +1,4 @@
-// What is behind everything: one triangle over the whole view.
+// The background: one triangle over the whole view.
 
 struct Back {
     @builtin(position) clip: vec4f,

@@ -13,7 +13,7 @@ struct Corner {
 }
 
 struct Shaded {
-    // The pass that shades must find the very depths that the pass before has left.
+    // Invariant, since the shading pass must reproduce the depths of the depth pass exactly.
     @builtin(position) @invariant clip: vec4f,
     @location(0) p: vec3f,
     @location(1) normal: vec3f,
@@ -24,7 +24,7 @@ struct Shaded {
 fn body_vertex(in: Corner) -> Shaded {
     let position = vec4f(in.position, 1.0);
     let p = vec3f(dot(in.x, position), dot(in.y, position), dot(in.z, position));
-    // Normals turn with the cofactors of the matrix, which are right for stretched bodies as well.
+    // Normals transform with the cofactors of the matrix, also for stretched bodies.
     let normal = vec3f(
         dot(cross(in.y.xyz, in.z.xyz), in.normal.xyz),
         dot(cross(in.z.xyz, in.x.xyz), in.normal.xyz),

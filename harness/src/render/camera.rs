@@ -1,4 +1,4 @@
-//! Where a picture is seen from.
+//! The camera of a picture.
 
 use glam::DVec3;
 use riprap::{Error, Result};
@@ -6,7 +6,7 @@ use riprap::{Error, Result};
 /// A camera with perspective.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Place of the eye, m.
+    /// Position of the eye, m.
     pub from: DVec3,
     /// The point in the middle of the picture, m.
     pub to: DVec3,
@@ -16,7 +16,7 @@ pub struct Camera {
     pub field_of_view: f64,
 }
 
-/// A direction to look in.
+/// A viewing direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// Direction from the eye into the picture.
@@ -28,8 +28,8 @@ pub struct Look {
 }
 
 impl Default for Look {
-    /// Along +y, from the right and above, z being up, with the field of view of a portrait lens: a
-    /// wider one would make the nearest blocks look larger than the others.
+    /// Along +y, from the right and above, with z up and the field of view of a portrait lens: a wider one would make the
+    /// nearest blocks look larger than the others.
     fn default() -> Self {
         Self {
             direction: DVec3::new(-0.45, 0.8, -0.4),
@@ -39,7 +39,7 @@ impl Default for Look {
     }
 }
 
-/// Axes of a camera: unit vectors at right angles.
+/// Axes of a camera: orthogonal unit vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axes {
     /// To the right in the picture.
@@ -53,7 +53,7 @@ pub(super) struct Axes {
 impl Axes {
     fn new(direction: DVec3, up: DVec3) -> Option<Self> {
         let forward = direction.try_normalize()?;
-        // Looking along `up` within 1e-6 rad, nothing says what is right.
+        // A view along `up` within 1e-6 rad does not define the right.
         let right = forward.cross(up.try_normalize()?);
         let right = (right.length() > 1e-6).then(|| right.normalize())?;
         Some(Self {
@@ -116,14 +116,14 @@ impl Look {
             return Err(Error::argument("look", message));
         };
         // A ball (x, y, z; r) in the camera's axes is left of the right edge plane through the eye e
-        // if (x − e_x) cos θ + r ≤ (z − e_z) sin θ, θ being half of the view's angle, and likewise
-        // for the other edges. Each pair of opposite edges bounds e_z from above, and says where
-        // between them e lies when it is there.
+        // if (x − e_x) cos θ + r ≤ (z − e_z) sin θ, where θ is half of the view's angle, and likewise
+        // for the other edges. Each pair of opposite edges bounds e_z from above, and gives the
+        // position of e between them at that bound.
         let tangent = (0.5 * self.field_of_view).tan() * (1.0 - margin);
         let planes = [tangent * aspect, tangent].map(|tangent| tangent.atan().sin_cos());
         let mut extremes = [[f64::NEG_INFINITY; 2]; 2];
         let mut depths = [f64::INFINITY, f64::NEG_INFINITY];
-        // Near the bodies rather than near the origin, so that far away ones keep their digits.
+        // Relative to the bodies rather than the origin, so that distant ones keep their digits.
         let mut balls = balls.peekable();
         let (origin, first) = balls.peek().copied().unwrap_or((DVec3::ZERO, 1.0));
         for (centre, radius) in balls.chain([(origin, first)]) {
@@ -139,7 +139,7 @@ impl Look {
         let nearest = |[a, b]: [f64; 2], (sin, _): (f64, f64)| -0.5 * (a + b) / sin;
         let middle = |[a, b]: [f64; 2], (_, cos): (f64, f64)| 0.5 * (a - b) / cos;
         let size = depths[1] - depths[0];
-        // Before all bodies, also where the edges alone would let the eye into them.
+        // In front of all bodies, also if the edges alone would let the eye into them.
         let z = nearest(extremes[0], planes[0])
             .min(nearest(extremes[1], planes[1]))
             .min(depths[0] - 0.05 * size);

@@ -1,4 +1,4 @@
-//! What a picture shows.
+//! Content of a picture.
 
 use super::camera::{Camera, Look};
 use super::drops::Drops;
@@ -9,8 +9,8 @@ use crate::picture::{Palette, Trace};
 use glam::{DMat3, DVec3};
 use riprap::{Error, Result};
 
-/// Everything in a picture. Lengths are metres; far-away coordinates keep their digits, since all
-/// are taken relative to the camera's target before they are rounded to f32.
+/// Everything in a picture. Lengths are metres; large coordinates keep their digits, since all are taken relative to the
+/// camera's target before they are rounded to f32.
 #[derive(Clone, Debug, Default)]
 pub struct Drawing<'a> {
     /// The shapes of bodies.
@@ -21,38 +21,38 @@ pub struct Drawing<'a> {
     pub planes: Vec<FluidPlane>,
     /// Lines along a flow.
     pub traces: Option<Traces>,
-    /// Balls that are many and small.
+    /// Many small balls.
     pub drops: Option<Drops>,
     /// Other lines.
     pub lines: Vec<Line>,
-    /// Where it is seen from.
+    /// The view.
     pub view: View,
     /// A plane with a grid below the bodies.
     pub ground: Option<Ground>,
-    /// What is behind everything.
+    /// The background.
     pub background: Background,
-    /// Direction towards the sun; above the spectator's left shoulder if `None`.
+    /// Direction towards the sun; above the viewer's left shoulder if `None`.
     pub sun: Option<DVec3>,
-    /// Whether a bar says how long a metre is, at the distance of the camera's target.
+    /// Whether to draw a scale bar for the distance of the camera's target.
     pub scale_bar: bool,
-    /// What is drawn above the picture.
+    /// Title above the picture.
     pub title: String,
-    /// Time, s, drawn beside the title.
+    /// Time, s, drawn next to the title.
     pub time: Option<f64>,
-    /// What the bodies' values are; without it they have no colour bar.
+    /// Meaning of the bodies' values; without it they have no colour bar.
     pub colours: Option<Colours>,
 }
 
-/// A body: a mesh somewhere.
+/// A body: a mesh at a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instance {
     /// Index of the mesh.
     pub mesh: usize,
-    /// Place of the mesh's origin, m.
+    /// Position of the mesh's origin, m.
     pub centre: DVec3,
     /// Rotation, and stretch if any: a point X of the mesh is at `centre` + `deformation` X.
     pub deformation: DMat3,
-    /// What its colour means, in the unit of [`Colours`]; the colour of stone if `None`.
+    /// The value shown by its colour, in the unit of [`Colours`]; the colour of stone if `None`.
     pub value: Option<f64>,
     /// A body that does not move is drawn in neutral grey, whatever its value.
     pub fixed: bool,
@@ -63,7 +63,7 @@ pub struct Instance {
 pub struct Traces {
     /// The lines.
     pub lines: Vec<Trace>,
-    /// What their colours are.
+    /// Meaning of their colours.
     pub colours: Colours,
 }
 
@@ -100,7 +100,7 @@ pub struct Line {
 pub enum View {
     /// A camera.
     From(Camera),
-    /// The nearest camera in a direction that sees all bodies, planes and lines.
+    /// The nearest camera in a direction from which all bodies, planes and lines are in view.
     Framing(Look),
 }
 
@@ -127,21 +127,20 @@ pub enum Background {
     Sky,
 }
 
-/// What the values of bodies, planes, lines or balls are.
+/// Meaning of the values of bodies, planes, lines or balls.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Colours {
     /// Name of the quantity.
     pub label: String,
     /// Its unit.
     pub unit: String,
-    /// Values at the ends of the colour map; those that occur if `None`. With opposite ends the map
-    /// is one around zero.
+    /// Range of the colour map; that of the values if `None`. With opposite ends the map diverges around zero.
     pub range: Option<[f64; 2]>,
 }
 
 impl Colours {
-    /// The colours of values in the part `name` of a drawing, by `palette` where they are not around zero; those of a
-    /// `length` begin at zero.
+    /// The colour bar of values in the part `name` of a drawing, by `palette` unless the values are around zero; the range of
+    /// a `length` begins at zero.
     ///
     /// # Errors
     /// If the range given is not two numbers, the lower first.
@@ -165,7 +164,7 @@ impl Colours {
 }
 
 impl Drawing<'_> {
-    /// That everything can be drawn.
+    /// Checks that everything can be drawn.
     pub(super) fn check(&self) -> Result<()> {
         for (index, body) in self.instances.iter().enumerate() {
             let place = || format!("instances[{index}]");

@@ -1,4 +1,4 @@
-// Small balls: a square that faces the eye, and on it the ball's surface, normal and depth.
+// Small balls: a square that faces the eye, with the surface, normal and depth of the ball.
 
 struct Dot {
     // Centre and radius, m.
@@ -19,7 +19,7 @@ struct Point {
     @builtin(frag_depth) depth: f32,
 }
 
-// Least radius, pixels: a smaller ball would fall between the samples.
+// Smallest radius, pixels: a smaller ball would fall between the samples.
 const LEAST = 0.75;
 
 @vertex
@@ -32,7 +32,7 @@ fn drop_vertex(in: Dot, @builtin(vertex_index) index: u32) -> Disc {
         // At the eye: outside the picture.
         return Disc(vec4f(0.0, 0.0, 2.0, 1.0), vec2f(0.0), vec4f(0.0), vec4f(0.0));
     }
-    // Wider by half a pixel, for the soft edge.
+    // Wider by half a pixel, for the smooth edge.
     let wide = corner * (1.0 + 0.5 * middle.z / (view.eye.w * radius));
     let s = middle + vec3f(wide * radius, 0.0);
     let clip = vec4f(s.x * view.right.w, s.y * view.up.w, near, s.z);
@@ -42,7 +42,7 @@ fn drop_vertex(in: Dot, @builtin(vertex_index) index: u32) -> Disc {
 @fragment
 fn drop_fragment(in: Disc) -> Point {
     let out = length(in.across);
-    // Soft within a pixel; opacity covers as many of its samples.
+    // Smoothed within a pixel: opacity covers a proportional number of its samples.
     let covered = clamp((1.0 - out) / max(fwidth(out), 1e-6) + 0.5, 0.0, 1.0);
     if (covered == 0.0) {
         discard;
@@ -50,7 +50,7 @@ fn drop_fragment(in: Disc) -> Point {
     let towards = sqrt(max(1.0 - out * out, 0.0));
     let normal = in.across.x * view.right.xyz + in.across.y * view.up.xyz - towards * view.forward.xyz;
     let p = in.ball.xyz + in.ball.w * normal;
-    // All of the sky, without a look into its directions: a pixel of water is none to wait for.
+    // The whole sky without shadow maps, whose cost is not worth it for small balls.
     let sun = lights[0].towards.xyz;
     let sky = view.weights.z - view.weights.x * max(dot(sun, view.zenith.xyz), 0.0);
     let below = 0.5 - 0.5 * dot(normal, view.zenith.xyz);

@@ -1,4 +1,4 @@
-//! Balls that are many and small: particles of water.
+//! Many small balls: particles of water.
 
 use super::drawing::{Colours, check_finite};
 use super::scales::Scales;
@@ -13,9 +13,9 @@ use riprap::Result;
 pub struct Drops {
     /// The balls.
     pub drops: Vec<Drop>,
-    /// Radius of each, m; in the picture they are never smaller than pixels.
+    /// Radius of each, m; they are drawn at least as large as a pixel.
     pub radius: f64,
-    /// What their colours are.
+    /// Meaning of their colours.
     pub colours: Colours,
 }
 
@@ -24,7 +24,7 @@ pub struct Drops {
 pub struct Drop {
     /// Its centre, m.
     pub centre: DVec3,
-    /// What its colour means, in the unit of [`Drops::colours`].
+    /// The value shown by its colour, in the unit of [`Drops::colours`].
     pub value: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A plane through a fluid, and what it shows.
+//! A plane through a fluid, coloured by a quantity.
 
 use super::drawing::{Colours, check_finite};
 use crate::picture::colour_bar::ColourBar;
@@ -6,8 +6,8 @@ use crate::picture::{Palette, Plane, Section};
 use glam::DVec3;
 use riprap::Result;
 
-/// A quantity on the cells that a plane passes through. Its colours are exactly those of the colour bar: neither light
-/// nor shadow falls on it.
+/// A quantity on the cells that a plane passes through. Its colours are exactly those of the colour bar: it is neither lit
+/// nor shadowed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FluidPlane {
     /// The plane.
@@ -18,19 +18,19 @@ pub struct FluidPlane {
     pub spacing: f64,
     /// Number of cells along both axes.
     pub cells: [usize; 2],
-    /// The quantity, the first axis running fastest; not a number where there is no fluid, which leaves a hole.
+    /// The quantity, the first axis running fastest; NaN for cells without fluid, which leave holes.
     pub values: Vec<f32>,
-    /// What the values are.
+    /// Meaning of the values.
     pub colours: Colours,
 }
 
 impl FluidPlane {
-    /// What `section` shows, which `plane` has cut. Solid cells are left out, but not those at the surface of a solid
-    /// that the section knows as a block: it is drawn before them.
+    /// The plane of `section`, which was cut by `plane`. Solid cells are left out, except those of a solid that the section
+    /// has as a block: the block is drawn over them.
     pub fn of(section: &Section, plane: Plane, colours: Colours) -> Self {
         let value = |cell: usize| match section.values[cell] as f32 {
             _ if section.solid[cell] && !section.in_blocks[cell] => f32::NAN,
-            // To be seen as the fault that it is.
+            // Infinite, so that the fault is visible.
             value if value.is_nan() && section.is_fluid(cell) => f32::INFINITY,
             value => value,
         };

@@ -1,7 +1,7 @@
-//! A drawing as the device wants it: corners, placements and few draw calls.
+//! Vertices, placements and few draw calls of a drawing.
 //!
-//! A mesh with many instances is stored once and drawn once for all of them. Meshes with few instances — the
-//! blocks of a rock mass all differ — are placed on the host and drawn together.
+//! A mesh with many instances is stored once and drawn once for all of them. Meshes with few instances, such as the blocks
+//! of a rock mass, which all differ, are placed on the host and drawn together.
 
 use super::drawing::{Drawing, Instance};
 use super::drops::Dot;
@@ -12,18 +12,18 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DMat3, DVec3};
 use std::ops::Range;
 
-/// Instances from which on a mesh has a draw call of its own.
+/// Number of instances from which a mesh has its own draw call.
 const MANY: usize = 8;
 /// Colour of free bodies without a value: dry sandstone.
 const STONE: [u8; 3] = [205, 190, 165];
 /// Colour of fixed bodies.
 const FIXED: [u8; 3] = [150, 150, 150];
-/// Colour of edges, over that of their body.
+/// Brightness of edges relative to that of their body.
 const EDGE: f64 = 0.25;
-/// Half of an edge's width, pixels, and in parts of the body's radius, so that edges of small bodies do not
-/// cover them.
+/// Half of an edge's width, in pixels and relative to the body's radius, so that edges of small bodies do not cover
+/// them.
 const EDGE_HALF_WIDTH: (f32, f64) = (0.6, 0.014);
-/// Radius of a body from which on its edges are drawn, pixels: below, they have a seventh of a pixel.
+/// Radius of a body from which its edges are drawn, pixels: at this radius they are a seventh of a pixel wide.
 const EDGES_FROM: f64 = 5.0;
 const WHITE: [u8; 4] = [u8::MAX; 4];
 
@@ -36,7 +36,7 @@ pub struct Corner {
     colour: [u8; 4],
 }
 
-/// Where a mesh is drawn, and its colour.
+/// Position of a mesh and its colour.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Placement {
@@ -58,7 +58,7 @@ pub struct Batch {
 pub struct List<V> {
     /// Vertices.
     pub vertices: Vec<V>,
-    /// Three for a triangle.
+    /// Three per triangle.
     pub indices: Vec<u32>,
     /// Draw calls.
     pub batches: Vec<Batch>,
@@ -73,14 +73,14 @@ pub struct Geometry {
     pub strokes: List<End>,
     /// Small balls.
     pub dots: Vec<Dot>,
-    /// Placements; the first leaves everything where it is.
+    /// Placements; the first one is the identity.
     pub placements: Vec<Placement>,
-    /// Least and largest coordinates of what throws shadows, m; `None` if nothing does.
+    /// Smallest and largest coordinates of all bodies that cast shadows, m; `None` if nothing does.
     pub bounds: Option<[DVec3; 2]>,
 }
 
 impl Geometry {
-    /// The geometry of a drawing relative to `target` (m), with its colours and the pixels that a metre has at a place.
+    /// The geometry of a drawing relative to `target` (m), with its colours and the pixels per metre at a position.
     pub fn new(
         drawing: &Drawing<'_>,
         target: DVec3,
@@ -139,7 +139,7 @@ impl Geometry {
                 }),
             );
             let placements = first..geometry.placements.len() as u32;
-            // What is placed on the host is drawn apart, once the meshes are through.
+            // Meshes placed on the host have their own batch, which ends here.
             geometry.solid.close();
             let corners = mesh.vertices.iter();
             let corners = corners.map(|v| Corner::new(v.position, v.normal, WHITE));
@@ -209,7 +209,7 @@ impl<V> List<V> {
         self.indices.extend(indices.map(|index| first + index));
     }
 
-    /// Ends the batch of what stays where it is.
+    /// Ends the batch of meshes that were placed on the host.
     fn close(&mut self) {
         self.close_with(0..1);
     }
@@ -255,7 +255,7 @@ fn dark(colour: [u8; 3]) -> [u8; 4] {
     [r, g, b, u8::MAX]
 }
 
-/// The matrix that turns normals as `m` turns surfaces.
+/// The cofactor matrix of `m`, which transforms normals as `m` transforms surfaces.
 fn cofactors(m: DMat3) -> DMat3 {
     DMat3::from_cols(
         m.y_axis.cross(m.z_axis),

@@ -3,7 +3,7 @@
 struct Spot {
     @builtin(position) clip: vec4f,
     @location(0) p: vec3f,
-    // Place from the middle along the ground's axes, m.
+    // Position relative to the middle along the ground's axes, m.
     @location(1) place: vec2f,
 }
 
@@ -22,14 +22,14 @@ fn ground_vertex(@builtin(vertex_index) index: u32) -> Spot {
 @fragment
 fn ground_fragment(in: Spot) -> @location(0) vec4f {
     let lines = (in.place + view.grid.xy) / view.ground_x.w;
-    // Cells of the grid a pixel; where they shrink to pixels, the lines fade to their mean.
+    // Grid cells per pixel; as this approaches one, the lines fade to their mean.
     let pixel = fwidth(lines);
     let from_line = abs(fract(lines - 0.5) - 0.5) / pixel;
     let fine = clamp(1.0 - 3.0 * pixel, vec2f(0.0), vec2f(1.0));
     let cover = clamp(0.5 + 0.5 * WIDTH - from_line, vec2f(0.0), vec2f(1.0)) * fine;
     let grid = 1.0 - DARKER * max(cover.x, cover.y);
     let fade = 1.0 - smoothstep(view.ground.w, view.ground_y.w, length(in.place));
-    // White where all light reaches it: it has no edge on paper and leaves only grid and shadows.
+    // White where all light reaches the ground: on paper it has no edge and leaves only grid and shadows.
     let light = illuminance(in.p, view.zenith.xyz) / view.weights.z;
     return vec4f(vec3f(grid * light), fade);
 }

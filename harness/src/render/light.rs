@@ -1,18 +1,18 @@
-//! The sun and the sky, and what each of their directions sees of the bodies.
+//! The sun and the sky, and the shadows of bodies for each of their directions.
 //!
-//! An even sky is many directions, each with a shadow map of its own: where bodies hide a part of the sky it is
-//! darker, and a heap shows its depth. All maps are tiles of one texture, the sun's the largest.
+//! A uniform sky consists of many directions, each with its own shadow map: where bodies hide a part of the sky it is
+//! darker, which shows the depth of a heap. All maps are tiles of one texture; the sun's is the largest.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
-/// Lights in the shader's table.
+/// Size of the shader's table of lights.
 pub const MOST: usize = 64;
-/// Tiles along each edge of the atlas, and triangles up to which they are as many; the sun takes the
+/// Tiles along each edge of the atlas, and the largest number of triangles for which it is used; the sun takes the
 /// quarter in the corner, the directions of the sky the rest. Every light draws every triangle once, on the CPU
-/// in somewhat less than 1 µs. Beyond, nothing hides the sky.
+/// in somewhat less than 1 µs. With more triangles only the sun has a shadow map.
 const TILES: [(usize, usize); 2] = [(8, 50_000), (4, 600_000)];
-/// How many times as many triangles a GPU draws in that time, at least.
+/// Factor by which a GPU draws more triangles in that time, at least.
 const GPU: usize = 50;
 
 /// Illuminance of the sun on a surface that faces it.
@@ -22,7 +22,7 @@ pub const SKY: f64 = 0.56;
 /// Illuminance from the ground on a surface that faces it.
 pub const BOUNCE: f64 = 0.16;
 
-/// A direction that light comes from, as in view.wgsl.
+/// A light direction, as in view.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub struct Light {
@@ -33,7 +33,7 @@ pub struct Light {
     tile: [f32; 4],
 }
 
-/// The lights, and where in the atlas each draws what it sees: left, top, size, texels.
+/// The lights, and their tiles in the atlas: left, top, size, texels.
 pub struct Lights {
     /// The sun first.
     pub lights: Vec<Light>,
@@ -54,7 +54,7 @@ impl Lights {
     ) -> Self {
         let pace = if on_cpu { 1 } else { GPU };
         let fitting = TILES.iter().find(|(_, most)| triangles <= most * pace);
-        // One tile, and it is the sun's.
+        // A single tile, for the sun.
         let along = fitting.map_or(1, |(along, _)| *along);
         let unit = texels / along as u32;
         let sun_tiles = along.div_ceil(2);
@@ -75,9 +75,9 @@ impl Lights {
         }
     }
 
-    /// Illuminance of each direction of the sky on a surface that faces it; none if there are none.
+    /// Illuminance of each direction of the sky on a surface that faces it; 0 if there are no directions.
     pub fn sky_weight(&self) -> f64 {
-        // The cosines of directions that are even over a hemisphere have the mean ½.
+        // Cosines of directions uniform over a hemisphere have the mean ½.
         match self.lights.len() - 1 {
             0 => 0.0,
             directions => 2.0 * SKY / directions as f64,
@@ -89,7 +89,7 @@ impl Light {
     fn new(towards: DVec3, [low, high]: [DVec3; 2], [x, y, size]: [u32; 3], texels: u32) -> Self {
         let across = towards.any_orthonormal_vector();
         let axes = [across, towards.cross(across), -towards];
-        // Along each axis: the box, wider by two texels, from 0 to 1.
+        // Along each axis: the box with a margin of two texels, mapped to 0 to 1.
         let margin = 2.0 / f64::from(size);
         let mut widest = 0.0_f64;
         let rows = axes.map(|axis| {
@@ -122,8 +122,8 @@ impl Light {
     }
 }
 
-/// Directions that are even over the hemisphere around `zenith`: equal steps of height, each turned on by
-/// the golden angle (Vogel 1979, for a disc).
+/// Uniform directions over the hemisphere around `zenith`: equal steps of height, each rotated by the golden angle
+/// (Vogel 1979, for a disc).
 fn sky(index: usize, count: usize, zenith: DVec3) -> DVec3 {
     let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
     let height = (index as f64 + 0.5) / count as f64;

@@ -1,4 +1,4 @@
-//! The surface of a body, ready to be drawn.
+//! The surface of a body as a mesh to draw.
 
 use glam::DVec3;
 use riprap::geometry::Polyhedron;
@@ -7,20 +7,20 @@ use std::collections::HashMap;
 /// A corner of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// Place from the body's centroid, m.
+    /// Position relative to the body's centroid, m.
     pub position: DVec3,
     /// Outward unit normal.
     pub normal: DVec3,
 }
 
-/// A surface with sharp or smooth shading, as its normals say, and the edges that are drawn on it.
+/// A surface with flat or smooth shading, according to its normals, and the edges drawn on it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Corners; where faces meet at an edge, each has its own.
     pub vertices: Vec<Vertex>,
     /// Indices of corners, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
-    /// Ends of the drawn edges from the centroid, m.
+    /// Ends of the drawn edges relative to the centroid, m.
     pub edges: Vec<[DVec3; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! Finished pictures, and moving ones.
+//! Finished pictures and animations.
 
 use anyhow::{Context, Result, anyhow, bail};
 use std::{path::Path, time::Duration};
@@ -24,7 +24,7 @@ impl Picture {
         }
     }
 
-    /// Writes it as PNG without opacity, replacing an older file only when done.
+    /// Writes the picture as PNG without opacity, replacing an older file only when done.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -32,7 +32,7 @@ impl Picture {
         crate::picture::canvas::write_png(path, [self.width, self.height], &self.rgb())
     }
 
-    /// Reads what [`Self::save`] has written.
+    /// Reads a file written by [`Self::save`].
     ///
     /// # Errors
     /// If the file cannot be read or is of another kind.
@@ -62,11 +62,11 @@ impl Picture {
     }
 }
 
-/// Writes `count` frames of one size as an animated PNG file that plays for ever, each frame shown for
-/// `delay`. Frames are drawn one after the other, so that only their compressed bytes are held.
+/// Writes `count` frames of one size as an animated PNG file that loops forever, each frame shown for `delay`. Frames are
+/// drawn one after the other, so that only their compressed bytes are kept in memory.
 ///
 /// # Errors
-/// Those of the frames; if they are not `count` or of different sizes; if the file cannot be written.
+/// Returns the errors of the frames, and an error if they are not `count` or differ in size, or the file cannot be written.
 pub fn animate(
     path: &Path,
     count: u32,

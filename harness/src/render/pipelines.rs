@@ -7,21 +7,21 @@ use super::drops::Dot;
 use super::geometry::{Corner, Placement};
 use super::strokes::End;
 
-/// Colours are blended and averaged as light, and stored as sRGB.
+/// Colours are blended and averaged in linear light, and stored as sRGB.
 pub const COLOUR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Depth of the view and of shadow maps.
 pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Samples a pixel; the number that every device has.
+/// Samples per pixel; the number that every device supports.
 pub const SAMPLES: u32 = 4;
 
-/// What every shader of the view begins with.
+/// Prefixes a shader of the view with view.wgsl.
 macro_rules! with_view {
     ($file:literal) => {
         concat!(include_str!("view.wgsl"), include_str!($file))
     };
 }
 
-/// Name and text of each shader.
+/// Name and source of each shader.
 pub const SHADERS: [(&str, &str); 7] = [
     ("background", with_view!("background.wgsl")),
     ("ground", with_view!("ground.wgsl")),
@@ -32,7 +32,7 @@ pub const SHADERS: [(&str, &str); 7] = [
     ("shadow", include_str!("shadow.wgsl")),
 ];
 
-/// Pipelines, and the layouts of what is bound to them.
+/// Pipelines, and the layouts of their bind groups.
 pub struct Pipelines {
     pub view_layout: wgpu::BindGroupLayout,
     pub light_layout: wgpu::BindGroupLayout,
@@ -115,14 +115,14 @@ impl Pipelines {
 enum Kind {
     Background,
     Ground,
-    /// Leaves only its depth.
+    /// Writes only the depth.
     Depth,
-    /// Over the depth that it has left.
+    /// Shades the surfaces whose depth has been written.
     Shaded,
-    /// Covers samples by its opacity.
+    /// Covers samples according to its opacity.
     Plane,
     Stroke,
-    /// With a depth of its own at each pixel, covering samples by its opacity.
+    /// Has its own depth at each pixel, and covers samples according to its opacity.
     Drop,
     Shadow,
 }
@@ -153,14 +153,14 @@ fn pipeline(
         blend: (kind == Kind::Ground).then_some(wgpu::BlendState::ALPHA_BLENDING),
         write_mask: match kind {
             Kind::Depth => wgpu::ColorWrites::empty(),
-            // Opacity counts the samples alone.
+            // Opacity only selects samples.
             Kind::Plane | Kind::Drop => wgpu::ColorWrites::COLOR,
             _ => wgpu::ColorWrites::ALL,
         },
     };
     let (depth_compare, depth_write) = match kind {
         Kind::Background => (wgpu::CompareFunction::Always, false),
-        // Drawn last, over what is farther away.
+        // Drawn last, over what is farther away than the ground.
         Kind::Ground => (wgpu::CompareFunction::Greater, false),
         Kind::Depth | Kind::Plane | Kind::Stroke | Kind::Drop => {
             (wgpu::CompareFunction::Greater, true)
@@ -207,7 +207,7 @@ fn pipeline(
     })
 }
 
-/// Layout of the bindings 0, 1, …, each with the stages that see it.
+/// Layout of the bindings 0, 1, …, each with its shader stages.
 fn bindings(
     device: &wgpu::Device,
     label: &str,

@@ -1,5 +1,5 @@
-//! A plane through a fluid on the device: its cells as the texels of a texture, and ever coarser copies of them for planes
-//! that are seen from far.
+//! A plane through a fluid on the device: its cells as the texels of a texture, and successively coarser copies (mip levels)
+//! for planes that are far away.
 
 use super::drawing::Drawing;
 use super::fluid_plane::FluidPlane;
@@ -36,7 +36,7 @@ impl Rectangle {
 }
 
 impl Renderer {
-    /// What is bound to draw each plane of a drawing relative to `target` (m).
+    /// The bind group of each plane of a drawing, relative to `target` (m).
     pub(super) fn bind_planes(
         &self,
         drawing: &Drawing<'_>,
@@ -123,15 +123,15 @@ fn extent([width, height]: [u32; 2]) -> wgpu::Extent3d {
     }
 }
 
-/// One of the copies.
+/// A mip level.
 struct Level {
     /// Texels along both axes.
     size: [u32; 2],
-    /// Red, green and blue (sRGB), which are 0 where there is no fluid, and the part that is fluid.
+    /// Red, green and blue (sRGB), which are 0 for cells without fluid, and the fraction of fluid.
     rgba: Vec<u8>,
 }
 
-/// All copies, the cells themselves first and one texel last.
+/// All mip levels, from the cells themselves to one texel.
 fn levels(plane: &FluidPlane, bar: &ColourBar) -> Vec<Level> {
     let texel = |value: &f32| match value.is_nan() {
         true => [0; 4],
@@ -149,14 +149,14 @@ fn levels(plane: &FluidPlane, bar: &ColourBar) -> Vec<Level> {
     made
 }
 
-/// Half as many texels along both axes, each the mean of the light of those that it covers.
+/// Half as many texels along both axes, each the mean in linear light of those that it covers.
 fn coarser(fine: &Level) -> Option<Level> {
     let size = fine.size.map(|count| (count / 2).max(1));
     if size == fine.size {
         return None;
     }
     let linear: [f64; 256] = std::array::from_fn(|channel| linear_of_srgb(channel as u8));
-    // Where a count is odd, one of the texels covers three.
+    // If a count is odd, one of the texels covers three.
     let covered = |along: usize, at: u32| {
         let place = |edge: u32| u64::from(edge) * u64::from(fine.size[along]);
         let whole = u64::from(size[along]);

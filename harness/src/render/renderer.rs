@@ -1,4 +1,4 @@
-//! Drawings to pictures on a device.
+//! Renders drawings to pictures on a device.
 
 use super::annotation::Layout;
 use super::camera::{Camera, Look};
@@ -16,13 +16,13 @@ use riprap::gpu::readback::Readback;
 use riprap::{Error, Result, wgpu};
 use std::time::Duration;
 
-/// Width and height of the texture with all shadow maps, where the device has that much.
+/// Width and height of the texture with all shadow maps, if the device supports it.
 const ATLAS: u32 = 4096;
-/// A picture of 10⁵ blocks takes a CPU with two cores some seconds; this long, the device hangs.
+/// Timeout of a wait: a picture of 10⁵ blocks takes a CPU with two cores some seconds.
 const PATIENCE: Duration = Duration::from_secs(300);
-/// Part of the view that a framing camera leaves free at each edge.
+/// Margin that a framing camera leaves at each edge, relative to the view.
 const MARGIN: f64 = 0.06;
-/// Vertices up to which a framing camera looks at each, rather than at the ball around them.
+/// Number of vertices up to which a framing camera considers each of them, rather than the ball around them.
 const FEW_VERTICES: usize = 64;
 
 /// Draws pictures of one size.
@@ -40,7 +40,7 @@ impl Renderer {
     /// A renderer of pictures of `size` (width, height; pixels, title and colour bar included).
     ///
     /// # Errors
-    /// [`Error::Limit`] if the device has no textures of that size, [`Error::Device`] if it refuses.
+    /// [`Error::Limit`] if the device does not support textures of that size, [`Error::Device`] if it fails.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, size: [u32; 2]) -> Result<Self> {
         let most = device.limits().max_texture_dimension_2d;
         let [least, largest] = [size[0].min(size[1]), size[0].max(size[1])];
@@ -73,20 +73,20 @@ impl Renderer {
         })
     }
 
-    /// The picture of a drawing, with title, colour bar and scale bar as it says.
+    /// The picture of a drawing, with its title, colour bars and scale bar.
     ///
     /// # Errors
-    /// What in the drawing is not finite or refers to nothing, and what the device cannot do.
+    /// If values in the drawing are not finite or refer to nothing, or if the device fails.
     pub fn render(&self, drawing: &Drawing<'_>) -> anyhow::Result<Picture> {
         let layout = Layout::new(drawing, self.size)?;
         let (camera, view) = self.view(drawing, layout.view_size())?;
         layout.finish(drawing, &camera, &view)
     }
 
-    /// The camera that sees everything in all `drawings`, such as the frames of an animation.
+    /// The camera that has everything in all `drawings`, such as the frames of an animation, in view.
     ///
     /// # Errors
-    /// Those of [`Self::render`].
+    /// Returns the errors of [`Self::render`].
     pub fn framing(&self, drawings: &[Drawing<'_>], look: Look) -> anyhow::Result<Camera> {
         let mut aspect = f64::INFINITY;
         for drawing in drawings {
@@ -103,7 +103,7 @@ impl Renderer {
         self.size
     }
 
-    /// What a camera sees, without annotations.
+    /// The view of the camera, without annotations.
     pub(super) fn view(&self, drawing: &Drawing<'_>, size: [u32; 2]) -> Result<(Camera, Picture)> {
         drawing.check()?;
         let camera = match drawing.view {
@@ -122,7 +122,7 @@ impl Renderer {
         let geometry = Geometry::new(drawing, camera.to, &scales, pixels_per_metre);
         let zenith = camera.up.normalize();
         let level = axes.right.cross(zenith);
-        // Over the spectator's left shoulder.
+        // Over the viewer's left shoulder.
         let shoulder = 1.0 * zenith - 0.85 * axes.right + 0.35 * level;
         let sun = drawing.sun.unwrap_or(shoulder).normalize();
         let bounds = geometry.bounds.unwrap_or([DVec3::ZERO; 2]);
@@ -152,7 +152,7 @@ impl Renderer {
     }
 }
 
-/// Balls that hold all bodies, planes and lines.
+/// Balls that enclose all bodies, planes and lines.
 fn balls<'a>(drawing: &'a Drawing<'_>) -> impl Iterator<Item = (DVec3, f64)> + 'a {
     let radii: Vec<f64> = drawing.meshes.iter().map(|mesh| mesh.radius()).collect();
     let bodies = drawing.instances.iter().flat_map(move |body| {
@@ -174,7 +174,7 @@ fn balls<'a>(drawing: &'a Drawing<'_>) -> impl Iterator<Item = (DVec3, f64)> + '
     bodies.chain(corners.chain(points).chain(ends).map(|point| (point, 0.0)))
 }
 
-/// What `make` makes, unless the device refuses.
+/// The result of `make`, or the error that the device reports.
 fn guarded<T>(device: &wgpu::Device, what: &str, make: impl FnOnce() -> T) -> Result<T> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let validity = device.push_error_scope(wgpu::ErrorFilter::Validation);

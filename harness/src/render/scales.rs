@@ -7,23 +7,23 @@ use crate::picture::colour_bar::ColourBar;
 use plotters::style::RGBColor;
 use riprap::Result;
 
-/// What the colours of a drawing mean.
+/// Colour scales of a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scales {
-    /// Of bodies.
+    /// Scale of the bodies.
     bodies: ColourBar,
-    /// Whether the colours of bodies are told.
+    /// Whether the scale of the bodies is shown.
     told: bool,
-    /// Of each plane through a fluid.
+    /// Scale of each plane through a fluid.
     pub planes: Vec<ColourBar>,
-    /// Of traces of a flow, if there are any.
+    /// Scale of streamlines, if there are any.
     traces: Option<ColourBar>,
-    /// Of small balls, if there are any.
+    /// Scale of small balls, if there are any.
     drops: Option<ColourBar>,
 }
 
 impl Scales {
-    /// Those of `drawing`.
+    /// The scales of `drawing`.
     pub fn of(drawing: &Drawing<'_>) -> Result<Self> {
         let colours = drawing.colours.clone().unwrap_or_default();
         let free = drawing.instances.iter().filter(|body| !body.fixed);
@@ -40,7 +40,7 @@ impl Scales {
         })
     }
 
-    /// The bars to be drawn, each once.
+    /// The bars to draw, without duplicates.
     pub fn bars(&self) -> Vec<&ColourBar> {
         let bodies = self.told.then_some(&self.bodies);
         let mut bars: Vec<&ColourBar> = Vec::new();
@@ -65,7 +65,7 @@ impl Scales {
             .map_or([0; 3], |bar| channels(bar.colour(value)))
     }
 
-    /// Colour of a trace at a speed (m/s).
+    /// Colour of a streamline at a speed (m/s).
     pub fn trace(&self, speed: f64) -> [u8; 3] {
         self.traces
             .as_ref()

@@ -1,4 +1,4 @@
-// Depth as a light sees it, into the light's tile of the atlas.
+// Depth as seen by a light, written to the light's tile of the atlas.
 
 struct Light {
     across: vec4f,

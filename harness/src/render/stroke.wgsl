@@ -1,18 +1,17 @@
-// Lines as wide as pixels say: every end of a line is two corners of a quadrilateral that faces the eye.
+// Lines with a width in pixels: each end of a line is two corners of a quadrilateral that faces the eye.
 
 struct End {
     @location(0) position: vec3f,
     // The other end.
     @location(1) other: vec3f,
     @location(2) colour: vec4f,
-    // Half of the width, pixels, positive for one corner and negative for the other; and the most that
-    // it may be, m.
+    // Half of the width, pixels, positive for one corner and negative for the other; and its upper limit, m.
     @location(3) half_width: vec2f,
     @location(4) x: vec4f,
     @location(5) y: vec4f,
     @location(6) z: vec4f,
     @location(7) tint: vec4f,
-    // Part of the width that has the colour, negative at the second end; the rest, at both sides, is dark.
+    // Coloured fraction of the width, negative at the second end; the rims at both sides are dark.
     @location(8) core: f32,
 }
 
@@ -24,13 +23,13 @@ struct Stroke {
     @location(2) @interpolate(flat) core: f32,
 }
 
-// How dark a rim is.
+// Brightness of a rim.
 const RIM = 0.12;
 
-// How far a line stands before the surface it lies on, in halves of its width: a surface that falls
-// away from the eye by up to atan(3) does not hide half of it.
+// Offset of a line towards the eye from the surface it lies on, in half widths: a surface inclined by up to atan(3) does
+// not hide half of the line.
 const LIFT = 3.0;
-// The most that it stands before, pixels: an arrow head must not show before what hides its line.
+// Largest offset, pixels: an arrow head must not show through what hides its line.
 const MOST_LIFT = 7.5;
 
 @vertex
@@ -55,19 +54,19 @@ fn stroke_vertex(in: End) -> Stroke {
     let direction = along / max(length(along), 1e-6);
     let half_width = min(abs(in.half_width.x), in.half_width.y * view.eye.w / a.z);
     let side = sign(in.half_width.x) * half_width * vec2f(-direction.y, direction.x);
-    // Half a width longer, so that lines that meet leave no notch.
+    // Longer by half a width, so that adjoining lines leave no notch.
     let place = (at + side - 0.5 * half_width * direction) / (0.5 * view.size.xy);
     let lift = min(LIFT * half_width, MOST_LIFT) / view.eye.w;
     let lifted = max(a.z * (1.0 - lift), near);
     let clip = vec4f(place * a.z, near * a.z / lifted, a.z);
-    // Each end counts its sides with its back to the other one.
+    // The sides of each end are defined looking away from the other end.
     return Stroke(clip, in.colour * in.tint, sign(in.half_width.x * in.core), abs(in.core));
 }
 
 @fragment
 fn stroke_fragment(in: Stroke) -> @location(0) vec4f {
     let colour = linear_of_srgb(in.colour.rgb);
-    // Soft within a pixel.
+    // Smoothed within a pixel.
     let pixel = max(fwidth(in.across), 1e-6);
     let rim = clamp((abs(in.across) - in.core) / pixel + 0.5, 0.0, 1.0);
     return vec4f(mix(colour, RIM * colour, select(rim, 0.0, in.core >= 1.0)), 1.0);

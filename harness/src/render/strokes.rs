@@ -1,4 +1,4 @@
-//! Lines with a width, as the device wants them.
+//! Vertices of lines with a width.
 
 use super::fluid_plane::FluidPlane;
 use super::geometry::List;
@@ -8,11 +8,11 @@ use crate::picture::field_lines::arrows;
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
-/// Half of the width of a trace, pixels, and the part of it that has its colour: beside it a dark rim tells the line
-/// from a plane of the same colour.
+/// Half of the width of a trace, pixels, and the coloured fraction of it: a dark rim on both sides separates the line from a
+/// plane of the same colour.
 const TRACE: f32 = 2.4;
 const CORE: f32 = 0.58;
-/// Length and half of the width of an arrow head on a trace, and how far they are from each other, pixels.
+/// Length and half width of an arrow head on a trace, and the distance between arrow heads, pixels.
 const ARROW: (f64, f32) = (20.0, 7.5);
 const APART: f64 = 300.0;
 /// Colour of the border of a plane, and half of its width, pixels.
@@ -30,12 +30,12 @@ pub struct End {
 }
 
 impl List<End> {
-    /// A stroke between two ends: half of its width in pixels, and the most that it may be in metres.
+    /// Adds a stroke between two ends: half of its width in pixels, and its upper limit in metres.
     pub fn stroke(&mut self, ends: [DVec3; 2], colour: [u8; 4], [half, limit]: [f32; 2]) {
         self.tapered(ends, colour, [half; 2], limit, 1.0);
     }
 
-    /// The same with a width at each end, dark beside the middle `core` of it.
+    /// Adds a stroke with a width at each end and dark rims outside of the fraction `core` in its middle.
     fn tapered(
         &mut self,
         ends: [DVec3; 2],
@@ -45,7 +45,7 @@ impl List<End> {
         core: f32,
     ) {
         let [a, b] = ends.map(|end| end.as_vec3().to_array());
-        // Around the quadrilateral; seen from the other end, the sides are exchanged.
+        // Around the quadrilateral; looking from the other end, the sides are exchanged.
         let corners = [
             (a, b, from, core),
             (a, b, -from, core),
@@ -62,7 +62,7 @@ impl List<End> {
         self.push(corners.into_iter(), &[[0, 1, 2], [0, 2, 3]]);
     }
 
-    /// The edges of a plane, relative to `target` (m).
+    /// Adds the edges of a plane, relative to `target` (m).
     pub fn border(&mut self, plane: &FluidPlane, target: DVec3) {
         let corners = plane.corners().map(|corner| corner - target);
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
@@ -70,7 +70,7 @@ impl List<End> {
         }
     }
 
-    /// A line along a flow with arrow heads, relative to `target` (m).
+    /// Adds a streamline with arrow heads, relative to `target` (m).
     pub fn trace(
         &mut self,
         trace: &Trace,

@@ -1,4 +1,4 @@
-//! What a device is told to draw a picture.
+//! The commands that draw a picture.
 
 use super::drawing::Drawing;
 use super::geometry::{Geometry, List};
@@ -10,7 +10,7 @@ use bytemuck::Pod;
 use riprap::{Error, Result, wgpu};
 
 impl Renderer {
-    /// Draws, `planes` being bound for those of the drawing, and returns the buffer that will hold the pixels and the bytes of a row in it.
+    /// Draws with the bind groups `planes` of the drawing's planes; returns the buffer for the pixels and its bytes per row.
     pub(super) fn submit(
         &self,
         drawing: &Drawing<'_>,
@@ -59,7 +59,7 @@ impl Renderer {
         pass.set_pipeline(&self.pipelines.background);
         pass.draw(0..3, 0..1);
         pass.set_vertex_buffer(1, placements.slice(..));
-        // Depth first, so that light is computed once a pixel.
+        // Depth first, so that light is computed once per pixel.
         for pipeline in [&self.pipelines.depth, &self.pipelines.body] {
             pass.set_pipeline(pipeline);
             if let Some(solid) = &solid {
@@ -108,7 +108,7 @@ impl Renderer {
         Ok((pixels, row))
     }
 
-    /// Draws what each light sees.
+    /// Draws the shadow map of each light.
     fn shadows(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -160,7 +160,7 @@ impl Renderer {
         Ok(self.bind_group("view", &self.pipelines.view_layout, &resources))
     }
 
-    /// What is bound to the bindings 0, 1, … of a layout.
+    /// The bind group with the bindings 0, 1, … of a layout.
     pub(super) fn bind_group(
         &self,
         label: &str,

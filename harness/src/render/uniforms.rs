@@ -25,10 +25,10 @@ pub struct Uniforms {
     below: [f32; 4],
 }
 
-/// Depth of the near plane, in distances to the camera's target: what is nearer is not seen. A float that runs to zero
-/// at infinity tells depths apart as well behind a near one as behind a far one.
+/// Depth of the near plane, in distances to the camera's target: nearer things are not visible. A float depth that
+/// approaches zero at infinity resolves depths equally well with a near plane this close.
 const NEAR: f64 = 1e-3;
-/// Cells of the ground's grid across the bodies, about.
+/// Approximate number of grid cells of the ground across the bodies.
 const CELLS: f64 = 8.0;
 
 impl Uniforms {
@@ -50,7 +50,7 @@ impl Uniforms {
             .ground
             .map_or(0.0, |ground| ground.height - height_of_target);
         let (middle, radius) = (0.5 * (low + high), 0.5 * (high - low).length());
-        // Without bodies, what the camera's target is surrounded by.
+        // Without bodies, the surroundings of the camera's target.
         let radius = if radius > 0.0 {
             radius
         } else {
@@ -92,7 +92,7 @@ impl Uniforms {
         }
     }
 
-    /// Whether the eye is on the side of the ground that has a grid.
+    /// Whether the eye is on the side of the ground with the grid.
     pub fn above_ground(&self) -> bool {
         let [eye, ground, zenith] = [self.eye, self.ground, self.zenith];
         (0..3)
@@ -104,7 +104,7 @@ impl Uniforms {
 
 /// Axes of the grid on the ground.
 fn grid_axes(zenith: DVec3) -> [DVec3; 2] {
-    // The axis of the world that is nearest to level, the first of equals: x, y for z up.
+    // The axis of the world that is closest to horizontal, the first one of a tie: x, y for z up.
     let level = |axis: &DVec3| axis.dot(zenith).abs();
     let mut x = DVec3::X;
     for axis in [DVec3::Y, DVec3::Z] {

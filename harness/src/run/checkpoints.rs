@@ -1,4 +1,4 @@
-//! The state from which a run can go on: `checkpoint.riprap`, and the scene that it is of beside it, `checkpoint.toml`.
+//! Checkpoints, from which a run can be restarted: `checkpoint.riprap`, and a copy of its scene, `checkpoint.toml`.
 
 use super::{
     recorder::{Recorder, RunLog, Schedule},
@@ -12,27 +12,27 @@ use std::{
 };
 use toml::{Table, Value};
 
-/// Parts of a run after each of which it has a checkpoint, where the scene does not say when.
+/// Number of equal parts of a run after each of which a checkpoint is written, unless the scene gives an interval.
 const PARTS: f64 = 10.0;
-/// The same within the first of them: much of what diverges does so soon.
+/// The same within the first part: runs that diverge often do so early.
 const EARLY: f64 = 100.0;
-/// Fewest parts: the last good state should not be the start.
+/// Smallest number of parts, so that the last good state is not the start.
 const FEWEST: f64 = 2.0;
-/// Bytes that more than these may have together, half a minute of a slow disk: larger states come less often.
+/// Largest total of bytes of more than [`FEWEST`] checkpoints, half a minute of a slow disk: larger states come less often.
 const BYTES: f64 = 4e9;
-/// Part of the time of a run that writing states of more than [`SMALL`] may take.
+/// Fraction of the run time that writing states of more than [`SMALL`] bytes may take.
 const SHARE: f64 = 0.05;
-/// Bytes of a state that is written at once.
+/// Bytes of a state that takes no noticeable time to write.
 const SMALL: u64 = 4_000_000;
 
 pub struct Checkpoints {
     schedule: Schedule,
-    /// The run, where it is ours to choose its parts.
+    /// The run, if the scene gives no interval of checkpoints.
     own: Option<Parted>,
-    /// Step of the previous checkpoint, or of the start, and the time at its end.
+    /// Step of the previous checkpoint or of the start, and the time when it was done.
     previous: (u64, Instant),
     path: PathBuf,
-    /// The scene's file.
+    /// Text of the scene file.
     text: String,
 }
 
@@ -61,7 +61,7 @@ struct Parted {
 }
 
 impl Parted {
-    /// When checkpoints of so many bytes are due after `step`; each takes as long as that many `steps`.
+    /// Schedule of checkpoints of `bytes` bytes after `step`; writing one takes as long as `steps` steps.
     fn schedule(&self, step: u64, bytes: u64, steps: f64) -> Schedule {
         let parts = (BYTES / bytes.max(1) as f64).clamp(FEWEST, PARTS).floor();
         let early = parts == PARTS && (step as f64) < self.last as f64 / PARTS;
@@ -85,7 +85,7 @@ impl Recorder for Checkpoints {
         let begin = Instant::now();
         let written = run.checkpoint(&self.path).map_err(Into::into);
         match written.and_then(|()| keep_scene(&self.text, &self.path)) {
-            // The scene does not request it, and the run goes on without.
+            // The scene did not request this checkpoint, so the run goes on without it.
             Err(error) if self.own.is_some() => {
                 const FAILED: &str = "no checkpoint at step";
                 // A full disk stays full: one warning is enough.
@@ -109,17 +109,17 @@ impl Recorder for Checkpoints {
     }
 }
 
-/// What may differ without the flow being another: what is written, and for how long.
+/// Sections that may differ without changing the flow: what is written, and for how long the run lasts.
 const BESIDE: [&str; 5] = ["title", "run", "output", "probes", "views"];
-/// Differences that are named before the rest is counted.
+/// Number of differences that are named; the rest is counted.
 const NAMED: usize = 5;
 
-/// Where the scene of the checkpoint at `path` is.
+/// Path of the scene of the checkpoint at `path`.
 fn beside(path: &Path) -> PathBuf {
     path.with_extension("toml")
 }
 
-/// Keeps the `text` of the scene that the checkpoint at `path` is of.
+/// Keeps the `text` of the scene next to its checkpoint at `path`.
 fn keep_scene(text: &str, path: &Path) -> Result<()> {
     let path = beside(path);
     if fs::read_to_string(&path).is_ok_and(|kept| kept == text) {
@@ -129,8 +129,8 @@ fn keep_scene(text: &str, path: &Path) -> Result<()> {
     Ok(())
 }
 
-/// A warning where the scene `text` is another than that of the checkpoint at `path`: which of its values differ. None
-/// where that is not known, because there is no scene beside the checkpoint.
+/// A warning if the scene `text` differs from that of the checkpoint at `path`, with the values that differ. `None` if
+/// there is no scene next to the checkpoint.
 pub fn other_scene(path: &Path, text: &str) -> Option<String> {
     let path = beside(path);
     let table = |text: &str| text.parse::<Table>().ok();
@@ -149,14 +149,14 @@ pub fn other_scene(path: &Path, text: &str) -> Option<String> {
     };
     (!found.is_empty()).then(|| {
         format!(
-            "the checkpoint is of another scene, which {} keeps: {}{rest}; the run goes on with what the scene says now",
+            "the checkpoint is of another scene, which {} keeps: {}{rest}; the run continues with the present scene",
             path.display(),
             found.join(", ")
         )
     })
 }
 
-/// Adds to `found` what `now` has else than `before`, at the `key` of the scene.
+/// Adds to `found` the differences between `before` and `now`, the values of a scene at `key`.
 fn differences(key: &str, before: &Value, now: &Value, found: &mut Vec<String>) {
     match (before, now) {
         (Value::Table(before), Value::Table(now)) => {
@@ -191,7 +191,7 @@ fn differences(key: &str, before: &Value, now: &Value, found: &mut Vec<String>) 
     }
 }
 
-/// `1` and `1.0` are one number.
+/// The value as a number: `1` and `1.0` are equal.
 fn number(value: &Value) -> Option<f64> {
     value.as_float().or(value.as_integer().map(|n| n as f64))
 }
@@ -200,7 +200,7 @@ fn number(value: &Value) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// The steps at which a run of 200 has checkpoints of so many bytes, which take as long as so many steps.
+    /// The steps at which a run of 200 steps writes checkpoints of `bytes` bytes, each of which takes as long as `steps` steps.
     fn due(bytes: u64, steps: f64) -> Vec<u64> {
         let run = Parted {
             time_step: 0.1,

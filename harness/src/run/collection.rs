@@ -1,4 +1,4 @@
-//! Files for ParaView, one a time, and the collection of them: `NAME_000123.vtu` and `NAME.pvd`.
+//! Files for ParaView, one per time, and their collection: `NAME_000123.vtu` and `NAME.pvd`.
 
 use super::{
     recorder::{Recorders, RunLog, Schedule},
@@ -22,13 +22,13 @@ enum Content {
     Blocks,
     /// Contacts of blocks.
     Contacts,
-    /// Faces whose loads a probe asks for.
+    /// Faces of blocks with a probe of their loads.
     Faces,
     /// Walls with a wall model.
     Walls,
 }
 
-/// The collections that a run writes: begun, or resumed after a restart.
+/// The collections that a run writes: new ones, or those continued after a restart.
 ///
 /// # Errors
 /// If one cannot be written.
@@ -41,7 +41,7 @@ pub fn recorders(run: &SceneRun, folder: &Path, last: u64) -> riprap::Result<Rec
             let mut fields = scene.output.fields.clone();
             let covered = !simulation.solid().is_empty() || scene.has_blocks();
             if covered && !fields.contains(&Field::Solid) {
-                // Without it, ParaView and pictures show solids as fluid at rest.
+                // Without this field, ParaView and pictures show solids as fluid at rest.
                 fields.push(Field::Solid);
             }
             contents.push(Content::Fields(fields));

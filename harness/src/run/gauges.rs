@@ -1,4 +1,4 @@
-//! A table for each probe in the water: `NAME.csv`, with NaN where the probe is dry. Levels, positions and volumes are
+//! A table per probe in free water: `NAME.csv`, with NaN if the probe is dry. Levels, positions and volumes are
 //! plotted over time: `NAME.png`.
 
 use super::{recorder::Recorder, scene_run::SceneRun, table::TimeTable};
@@ -11,7 +11,7 @@ use riprap::{
 };
 use std::path::Path;
 
-/// What writes the table of `probe`.
+/// The recorder of the table of `probe`.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -59,7 +59,7 @@ fn columns(probe: &Probe) -> Vec<String> {
     columns
 }
 
-/// Plotted quantities of a probe; fields are not plotted, nor y of a planar scene, where it is constant.
+/// Plotted quantities of a probe; fields are not plotted, nor is y of a planar scene, which is constant.
 fn tracks(place: &ProbePlace, plane: bool) -> Vec<Track> {
     match place {
         ProbePlace::Gauge { .. } => vec![Track::new("level", "m", &["level"])],

@@ -1,4 +1,4 @@
-//! The header of a run: what will run on what.
+//! The header of a run: scene, adapter and steps.
 
 use super::{rock::Rock, scene_run::SceneRun, summary::Summary};
 use crate::{print, search::left_out};
@@ -62,7 +62,7 @@ fn print_lattice(run: &SceneRun, summary: &Summary, lattice: &Lattice, units: &U
         .as_ref()
         .map_or(0.0, |found| found.bandwidth);
     eprintln!(
-        "            copies {:.1} GB/s; the kernel moves {} bytes a cell and step",
+        "            copies {:.1} GB/s; the kernel moves {} bytes per cell and step",
         bandwidth / 1e9,
         bytes_a_cell(setup)
     );
@@ -137,7 +137,7 @@ fn print_blocks(run: &SceneRun, rock: &Rock<'_>) {
     );
     let (time_step, sub_step) = (run.time_step(), rock.blocks.time_step());
     eprintln!(
-        "            {} sub-steps of at most {:.4e} s; they meet the fluid every {} steps",
+        "            {} sub-steps of at most {:.4e} s; they exchange with the fluid every {} steps",
         (time_step / sub_step).ceil().max(1.0),
         sub_step.min(time_step),
         run.scene().coupling.interval

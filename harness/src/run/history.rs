@@ -1,4 +1,4 @@
-//! Sums over the fluid and the blocks in time: `history.csv` and `history.png`.
+//! Sums over the fluid and the blocks over time: `history.csv` and `history.png`.
 
 use super::{
     recorder::{Recorder, RunLog},
@@ -14,10 +14,10 @@ use riprap::{
 };
 use std::path::Path;
 
-/// Points of a curve where the scene does not say how many: enough for a picture.
+/// Points of a curve if the scene gives no interval: enough for a picture.
 const POINTS: f64 = 200.0;
 
-/// What writes the history of this number.
+/// The recorder of the history with this number.
 ///
 /// # Errors
 /// If its table cannot be written.
@@ -29,7 +29,7 @@ pub fn recorder(
 ) -> riprap::Result<Box<dyn Recorder>> {
     let scene = run.scene();
     let history = &scene.output.histories[number];
-    // Of the scene's run, not of `--steps`: a run in parts has one table.
+    // From the duration of the scene, not `--steps`, so that a run in parts continues one table.
     let usual = scene.run.length(run.time_step()) / POINTS;
     let quantities = history.quantities.clone();
     let track = |quantity: &Quantity| {
@@ -65,7 +65,7 @@ pub fn claims(histories: &[scene::History], probe: &str) -> bool {
     (0..histories.len()).any(|number| name(number) == probe)
 }
 
-/// Sums over what there is; zero without it, which the checks of scenes leave to nobody.
+/// Sums over fluid, water and blocks; zero for those that a scene lacks, whose quantities its checks refuse.
 #[derive(Debug, Default)]
 struct Present {
     fluid: Totals,

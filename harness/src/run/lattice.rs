@@ -1,4 +1,4 @@
-//! A fluid on a lattice in the summary of a run, and how it and blocks met.
+//! The lattice and its coupling to blocks in the summary of a run.
 
 use super::{recorder::RunLog, scene_run::SceneRun, throughput::Throughput};
 use riprap::{
@@ -23,22 +23,22 @@ pub struct LatticeSummary {
     pub tau: f64,
     /// Collision operator, storage and lanes of the kernel.
     pub kernel: String,
-    /// Million updates of fluid cells a second, without what was written.
+    /// Million updates of fluid cells per second, without output.
     pub mlups: f64,
-    /// Bytes that the device copies a second, read and written.
+    /// Copy bandwidth of the device, read and written bytes per second.
     pub bandwidth: f64,
-    /// Bytes that a step moves for a fluid cell away from walls.
+    /// Bytes that a step moves per fluid cell away from walls.
     pub bytes_a_cell: u64,
     /// Bytes that a step moves in all.
     pub bytes_a_step: u64,
-    /// Part of that bandwidth that the steps use.
+    /// Fraction of that bandwidth that the steps use.
     pub bandwidth_share: f64,
-    /// Largest Mach number of the lattice that was seen.
+    /// Largest observed Mach number of the lattice.
     pub max_mach: f64,
 }
 
 impl LatticeSummary {
-    /// What is known of the lattice of `run` before the first step, if it has one.
+    /// The properties of the lattice of `run` before the first step, if it has one.
     ///
     /// # Errors
     /// If the bandwidth of the device cannot be measured.
@@ -67,7 +67,7 @@ impl LatticeSummary {
         }))
     }
 
-    /// With the speed of the steps so far, once kernels are compiled.
+    /// Adds the speed of the steps so far, once kernels are compiled.
     pub fn at_speed(&self, throughput: &Throughput) -> Self {
         let warm = throughput.warm();
         let rate = warm.rate(warm.steps);
@@ -78,10 +78,10 @@ impl LatticeSummary {
         }
     }
 
-    /// At the end of `run`.
+    /// The summary at the end of `run`.
     pub fn finished(&self, run: &SceneRun, log: &RunLog, throughput: &Throughput) -> Self {
         let units = run.simulation.units();
-        // Others may have kept the device busy the first time.
+        // Other processes may have kept the device busy during the first measurement.
         let again = run.bandwidth().unwrap_or_default();
         let found = Self {
             bandwidth: self.bandwidth.max(again),
@@ -105,7 +105,7 @@ impl fmt::Display for LatticeSummary {
     }
 }
 
-/// What the coupling of a run did, and what it could leave out.
+/// Work of the coupling of a run, and work that it skipped.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Coupling {
     /// Blocks in the fluid; the others are its solids.
@@ -122,18 +122,18 @@ pub struct Coupling {
     pub tiles_computed: u64,
     /// Lanes of bricks whose saturation was computed, all steps together.
     pub lanes_computed: u64,
-    /// Times that the tiles of blocks were looked for.
+    /// Number of searches for the tiles of blocks.
     pub searches: u64,
-    /// Loads of a step that were read back.
+    /// Number of steps whose loads were read back.
     pub readings: u64,
-    /// Steps of this run whose loads nobody needed.
+    /// Steps of this run whose loads were not needed.
     pub readings_skipped: u64,
-    /// Bytes that blocks take on the device, without the saturation of their bricks.
+    /// Bytes of the blocks on the device, without the saturation of their bricks.
     pub bytes: u64,
 }
 
 impl Coupling {
-    /// Of the blocks in `simulation`, if there are any, after `steps` of this run.
+    /// The coupling of `simulation`, if it has blocks, after `steps` of this run.
     pub fn of(simulation: &Simulation, steps: u64) -> Option<Self> {
         let coupled = simulation.coupled()?;
         let cells = coupled.solid_cells();
@@ -162,7 +162,7 @@ impl Coupling {
         })
     }
 
-    /// How many bricks of which kind there are, in words.
+    /// The numbers of bricks by kind, in words.
     pub fn kinds(&self) -> String {
         format!(
             "{} tiles in {} bricks with blocks, {} mixed and {} plain ones without",

@@ -1,23 +1,23 @@
-//! What a run did not do because its scene did not need it: counts, without measurement.
+//! Work that a run skipped because its scene did not need it: counts, without measurement.
 
 use super::{lattice::Coupling, rock::Rocks, water::WaterSummary};
 use riprap::lattice::{Force, Lattice};
 use serde::Serialize;
 use std::fmt;
 
-/// Work of one kind: how much of it was done, of how much that a program without this shortcut does.
+/// Work of one kind: how much was done, out of how much a program without this shortcut does.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LeftOut {
-    /// What was left out, and why.
+    /// What was skipped, and why.
     pub what: String,
-    /// What was done.
+    /// Work done.
     pub done: f64,
-    /// Of how much.
+    /// Work without the shortcut.
     pub of: f64,
 }
 
 impl LeftOut {
-    /// Those of (what, done, of how much) that were not done in full.
+    /// Those of `works` (what, done, of how much) that were not done in full.
     fn some<'a>(works: impl IntoIterator<Item = (&'a str, f64, f64)>) -> Vec<Self> {
         let works = works.into_iter().filter(|(_, done, of)| done < of);
         let left = |(what, done, of): (&str, _, _)| Self {
@@ -28,7 +28,7 @@ impl LeftOut {
         works.map(left).collect()
     }
 
-    /// Features that the kernels of a lattice do without, and its bricks without water.
+    /// Features that the kernels of a lattice omit, and its bricks without water.
     pub fn of_lattice(lattice: &Lattice) -> Vec<Self> {
         let (setup, geometry) = (lattice.setup(), lattice.geometry());
         let features = [
@@ -69,7 +69,7 @@ impl LeftOut {
         Self::some([(what, with as f64, bricks as f64)])
     }
 
-    /// What blocks in a fluid did without.
+    /// Work that the coupling of blocks and fluid skipped.
     pub fn of_coupling(coupling: &Coupling) -> Vec<Self> {
         let readings = coupling.readings as f64;
         let steps = (coupling.readings + coupling.readings_skipped) as f64;
@@ -87,7 +87,7 @@ impl LeftOut {
         all
     }
 
-    /// What contacts did without.
+    /// Work that the contact search skipped.
     pub fn of_rocks(rocks: &Rocks) -> Vec<Self> {
         let (blocks, pairs) = (rocks.blocks as f64, rocks.pairs as f64);
         let far = "candidate pairs, the others being far apart";
@@ -98,13 +98,13 @@ impl LeftOut {
         ])
     }
 
-    /// What water of particles did without.
+    /// Work that free water skipped.
     pub fn of_pool(pool: &WaterSummary) -> Vec<Self> {
         let sorts = "sorts, the lists of neighbours serving several steps";
         Self::some([(sorts, pool.sorts as f64, pool.steps_here as f64)])
     }
 
-    /// All of them in one line; none if nothing was left out.
+    /// All of them in one line; `None` if nothing was skipped.
     pub fn line(all: &[Self]) -> Option<String> {
         let texts: Vec<String> = all.iter().map(ToString::to_string).collect();
         (!texts.is_empty()).then(|| texts.join("; "))

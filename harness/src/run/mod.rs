@@ -1,8 +1,8 @@
-//! `riprap run`: computes a scene and writes what it asks for.
+//! `riprap run`: runs a scene and writes the requested output.
 //!
 //! `SceneRun` is a scene on a device, and `Runner` takes it to its end. Everything that a run writes is a `Recorder` with
-//! a schedule. The scene advances in batches that end where the next recorder is due; on Ctrl-C, at the end, and when
-//! the flow diverges, what is on disk is complete and can be continued.
+//! a schedule. The scene advances in batches that end when the next recorder is due. On Ctrl-C, at the end, and when
+//! the flow diverges, the files on disk are complete and the run can be continued.
 
 mod checkpoints;
 mod collection;
@@ -47,35 +47,35 @@ use std::{
     sync::atomic::AtomicBool,
 };
 
-/// Computes a scene and writes fields, pictures, tables, checkpoints and a summary.
+/// Runs a scene and writes fields, pictures, tables, checkpoints and a summary.
 #[derive(clap::Args, Clone, Debug, Default)]
 pub struct Args {
     /// The scene, a TOML file
     pub scene: PathBuf,
-    /// Folder for what is written [default: out/ and the name of the scene]
+    /// Folder of the output [default: out/ and the name of the scene]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Part of the name of the adapter to compute on [default: the first GPU, else a CPU]
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
-    /// Time steps at which the run ends, counted from the start of the scene [default: the scene's]
+    /// Time step at which the run ends, counted from the start of the scene [default: the scene's]
     #[arg(long, value_name = "N")]
     pub steps: Option<u64>,
-    /// Go on from a checkpoint of this scene; tables and collections in the folder are continued
+    /// Continue from a checkpoint of this scene; tables and collections in the folder are continued
     #[arg(long, value_name = "FILE")]
     pub restart: Option<PathBuf>,
     /// Print the summary as JSON
     #[arg(long)]
     pub json: bool,
-    /// Repeat the scene first at half its resolution, and tell how far the means of probes and histories are off: an
-    /// eighth of the cells or particles, a sixteenth of the time; of dry rock, steps twice as long
+    /// Run the scene first at half its resolution, and report how much the means of probes and histories differ: an eighth
+    /// of the cells or particles, a sixteenth of the time; for dry rock, steps twice as long
     #[arg(long)]
     pub error_estimate: bool,
-    /// End the run early, once the statistical error of the means of all probes with statistics is so small a part of their
-    /// root mean squares: `2%` or `0.02`; not before 256 samples, and as long a time as that before statistics.from
+    /// End the run early, once the statistical errors of the means of all probes with statistics, relative to their root mean
+    /// squares, are at most ERROR: `2%` or `0.02`; not before 256 samples that span as long a time as that before statistics.from
     #[arg(long, value_name = "ERROR")]
     pub until_error: Option<UntilError>,
-    /// Of these probes, or quantities of them such as `point.velocity`, alone
+    /// Limit --until-error to these probes, or to quantities of them such as `point.velocity`
     #[arg(
         long,
         value_name = "NAME",
@@ -83,18 +83,18 @@ pub struct Args {
         value_delimiter = ','
     )]
     pub error_of: Vec<String>,
-    /// Print the times of the phases of steps at the end: passes on the device where it has timestamps, and the host
+    /// Print the times of the phases of steps at the end: passes on the device if it has timestamps, and the host
     #[arg(long)]
     pub timings: bool,
 }
 
 /// Runs a scene until its end, or until `stop` is set.
 ///
-/// A flow that diverges is no error here: the summary says so and what is on disk.
+/// A flow that diverges is no error here: the summary reports it and what is on disk.
 ///
 /// # Errors
-/// What is wrong with the input, as [`riprap::Error`]; what ended a run that had begun, in the
-/// context of [`Unfinished`].
+/// Returns errors of the input as [`riprap::Error`], and errors that ended a run under way in the context of
+/// [`Unfinished`].
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let scene = Scene::from_file(&args.scene)?;
     match args.error_estimate {
@@ -108,7 +108,7 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let mut run = SceneRun::open(scene, &args.scene, args.adapter.as_deref())?;
     let folder = folder(args);
     if args.steps == Some(0) {
-        let message = "a run has at least one; `riprap check` looks at a scene without running it";
+        let message = "a run has at least one; `riprap check` examines a scene without running it";
         return Err(Error::argument("--steps 0", message).into());
     }
     let last = args
@@ -155,7 +155,7 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     Ok(summary)
 }
 
-/// Where a run writes to.
+/// The output folder of a run.
 fn folder(args: &Args) -> PathBuf {
     args.out.clone().unwrap_or_else(|| {
         let stem = args.scene.file_stem().unwrap_or("scene".as_ref());

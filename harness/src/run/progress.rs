@@ -1,4 +1,4 @@
-//! How far a run is, on standard error: a bar on a terminal, lines elsewhere.
+//! Progress of a run on standard error: a bar on a terminal, lines elsewhere.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::{
@@ -6,7 +6,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Time between lines where there is no terminal: a log of an hour stays readable.
+/// Time between lines without a terminal, so that the log of an hour stays readable.
 const PAUSE: Duration = Duration::from_secs(15);
 
 pub struct Progress {
@@ -24,7 +24,7 @@ impl Progress {
             let bar = ProgressBar::with_draw_target(Some(last), target).with_position(first);
             let form = "{wide_bar} step {pos}/{len}  {msg}";
             bar.set_style(ProgressStyle::with_template(form).unwrap_or_else(|_| {
-                // Only a misspelt template gets here.
+                // Only reached with a misspelt template.
                 ProgressStyle::default_bar()
             }));
             bar
@@ -39,7 +39,7 @@ impl Progress {
         }
     }
 
-    /// The run is at `step`; `throughput` says how fast it runs.
+    /// Shows that the run is at `step`, with its speed in words, `throughput`.
     pub fn show(&mut self, step: u64, throughput: &str) {
         let done = (step - self.first).max(1) as f64;
         let left = self.start.elapsed().as_secs_f64() / done * (self.last - step) as f64;

@@ -1,4 +1,4 @@
-//! What a run writes, one thing a type, and when.
+//! The outputs of a run, one type for each, and their schedules.
 
 use super::{rock::Safety, scene_run::SceneRun, statistics::TableStatistics};
 use anyhow::Result;
@@ -9,27 +9,27 @@ pub type Recorders = Vec<Box<dyn Recorder>>;
 
 /// Writes something about the present state when it is due.
 pub trait Recorder {
-    /// When it is due.
+    /// The steps at which it is due.
     fn schedule(&self) -> &Schedule;
 
-    /// Writes, and says which files.
+    /// Writes its output and logs the files.
     fn record(&mut self, run: &mut SceneRun, log: &mut RunLog) -> Result<()>;
 
-    /// Waits for what is still being written, and says which files.
+    /// Waits for output that is still being written, and logs the files.
     fn settle(&mut self, _log: &mut RunLog) {}
 
-    /// Statistics of the table that it writes, if it has some.
+    /// Statistics of its table, if it has some.
     fn statistics(&self) -> Option<&TableStatistics> {
         None
     }
 
-    /// Writes what only the end of the run can show.
+    /// Writes output that is only available at the end of the run.
     fn finish(&mut self, _run: &SceneRun, _log: &mut RunLog) -> Result<()> {
         Ok(())
     }
 }
 
-/// A schedule, and what is done when it is due.
+/// A schedule, and the function that is called when it is due.
 impl<F: FnMut(&mut SceneRun, &mut RunLog) -> Result<()>> Recorder for (Schedule, F) {
     fn schedule(&self) -> &Schedule {
         &self.0
@@ -45,27 +45,27 @@ impl<F: FnMut(&mut SceneRun, &mut RunLog) -> Result<()>> Recorder for (Schedule,
 pub struct RunLog {
     /// Files written, each once.
     pub files: Vec<PathBuf>,
-    /// What did not work and does not end the run.
+    /// Failures that do not end the run.
     pub warnings: Vec<String>,
     /// The last checkpoint with its step.
     pub checkpoint: Option<(u64, PathBuf)>,
-    /// Largest speed of the fluid that was seen, m/s.
+    /// Largest observed speed of the fluid, m/s.
     pub max_speed: f64,
-    /// Largest speed of a block's centroid that was seen, m/s.
+    /// Largest observed speed of a block's centroid, m/s.
     pub block_speed: f64,
-    /// How safely blocks stand whose probes ask.
+    /// Factors of safety of the blocks whose probes request them.
     pub safety: Vec<Safety>,
 }
 
 impl RunLog {
-    /// A file has been written.
+    /// Logs a file that was written.
     pub fn file(&mut self, path: PathBuf) {
         if !self.files.contains(&path) {
             self.files.push(path);
         }
     }
 
-    /// A picture has been drawn, or not: that is no reason to end a run.
+    /// Logs a picture, or the failure to draw it, which does not end the run.
     pub fn picture(&mut self, path: PathBuf, drawn: Result<()>) {
         match drawn {
             Ok(()) => self.file(path),
@@ -89,7 +89,7 @@ pub struct Schedule {
 }
 
 impl Schedule {
-    /// Each `every` seconds, if given, of steps of `time_step` s, and at the step `last`.
+    /// A schedule of each `every` seconds, if given, in steps of `time_step` s, and of the step `last`.
     pub fn new(every: Option<f64>, time_step: f64, last: u64) -> Self {
         let every = every.map(|every| (every / time_step).max(1.0));
         Self { every, last }
@@ -110,7 +110,7 @@ impl Schedule {
             return self.last;
         };
         let passed = (step as f64 / every).floor();
-        // Rounding down may make the next multiple this very step.
+        // Rounding down may make the next multiple equal to `step`.
         let candidates = [1.0, 2.0].map(|more| ((passed + more) * every).round() as u64);
         let found = candidates.into_iter().find(|next| *next > step);
         found.map_or(self.last, |next| next.min(self.last))

@@ -1,4 +1,4 @@
-//! From the first step to the last, writing what is due on the way.
+//! Advances a run from the first step to the last and writes what is due.
 
 use super::{
     checkpoints::Checkpoints,
@@ -26,14 +26,14 @@ pub struct Runner {
     recorders: Recorders,
     log: RunLog,
     throughput: Throughput,
-    /// What ends it before its last step.
+    /// Criterion that may end the run before its last step.
     convergence: Option<Convergence>,
     pub summary: Summary,
 }
 
 impl Runner {
-    /// Makes ready what will be written to `folder` until the step `last`; `restart` is the file of
-    /// the checkpoint that the simulation has been restored from, `text` what the scene's file holds.
+    /// Prepares the output to `folder` until the step `last`; `restart` is the file of the checkpoint from which the
+    /// simulation has been restored, `text` the content of the scene file.
     pub fn new(
         run: &mut SceneRun,
         folder: &Path,
@@ -56,7 +56,7 @@ impl Runner {
             recorders.push(history::recorder(run, folder, last, number)?);
         }
         recorders.extend(run.recorders(folder, last)?);
-        // Last, so that what it continues from has been written.
+        // Last, so that the files that a restart continues have been written.
         recorders.push(Box::new(Checkpoints::new(run, folder, last, text)));
         let log = RunLog {
             checkpoint: restart.map(|path| (run.step(), path.to_owned())),
@@ -73,7 +73,7 @@ impl Runner {
         })
     }
 
-    /// Stops when the statistical errors of the quantities `of`, or of all probes of `scene`, are `until` at most.
+    /// Makes the run stop when the statistical errors of the quantities `of`, or of all probes of `scene`, are at most `until`.
     ///
     /// # Errors
     /// If there are no such statistics.
@@ -95,7 +95,7 @@ impl Runner {
             .collect()
     }
 
-    /// Whether the means are known well enough.
+    /// Whether the statistical errors are small enough.
     fn has_converged(&mut self) -> bool {
         let convergence = self.convergence.as_ref();
         let now = convergence.map(|convergence| convergence.now(&self.statistics()));
@@ -106,12 +106,12 @@ impl Runner {
             .is_some_and(|now| now.reached)
     }
 
-    /// Prints what will run on what to standard error.
+    /// Prints scene, adapter and steps to standard error.
     pub fn print_header(&self, run: &SceneRun) {
         print_header(run, &self.summary, &self.folder, self.last);
     }
 
-    /// Computes to the end, or until `stop` is set, or until the flow diverges.
+    /// Runs to the end, until `stop` is set, or until the flow diverges.
     pub fn run_to_end(mut self, run: &mut SceneRun, stop: &AtomicBool) -> Result<Summary> {
         let start = Instant::now();
         let mut progress = Progress::new(run.step(), self.last);
@@ -179,14 +179,14 @@ impl Runner {
         }
     }
 
-    /// Writes what is due; everything that is not, if the run is `ending` here.
+    /// Writes what is due; if the run is `ending` here, also what is not due.
     fn record(&mut self, run: &mut SceneRun, ending: bool) -> Result<()> {
         let step = run.step();
         for number in 0..self.recorders.len() {
             if self.recorders[number].schedule().due(step) == ending {
                 continue;
             }
-            // The last one writes checkpoints.
+            // The last recorder writes checkpoints.
             if number + 1 == self.recorders.len() {
                 self.settle();
             }
@@ -195,20 +195,20 @@ impl Runner {
         Ok(())
     }
 
-    /// Waits for all that is still being written.
+    /// Waits for all output that is still being written.
     fn settle(&mut self) {
         let recorders = self.recorders.iter_mut();
         recorders.for_each(|recorder| recorder.settle(&mut self.log));
     }
 
-    /// What is kept of a run that ends by an error at `step`.
+    /// The error context of a run that ends by an error at `step`, with the files that are kept.
     fn unfinished(&mut self, step: u64) -> Unfinished {
         self.settle();
         Unfinished::new(step, &self.log)
     }
 }
 
-/// Whether a run ends by this because it left the range of the method.
+/// Whether `error` ends a run because it left the range of the method.
 pub fn leaves_range(error: &Error) -> bool {
     matches!(
         error,

@@ -1,4 +1,4 @@
-//! A scene on a device of its own, or on the host where blocks without a fluid need none.
+//! A scene on its own device, or on the host for blocks without a fluid that need no device.
 
 use super::{
     collection, gauges,
@@ -31,23 +31,24 @@ use riprap::{
 };
 use std::{path::Path, rc::Rc, time::Duration};
 
-/// Bytes whose copying shows what memory allows: more than caches hold.
+/// Bytes that are copied to measure the memory bandwidth: more than caches hold.
 const BYTES: u64 = 128 << 20;
 
-/// Looks at the largest speed in a run, beside those of the histories: seldom enough to cost nothing.
+/// Number of evaluations of the largest speed in a run, besides those of the histories: too few to cost time.
 const LOOKS: f64 = 20.0;
 
-/// Timeout of a wait. A step of 10⁸ cells or 10⁷ particles takes a CPU adapter minutes, and one of as many sub-steps of
+/// Timeout of a wait. A step of 10⁸ cells or 10⁷ particles takes a CPU adapter minutes, and a step with the most sub-steps
+/// of contacts that a run may have takes a quarter of an hour.
 /// contacts as a run may have a quarter of an hour.
 const PATIENCE: Duration = Duration::from_secs(1800);
 
-/// A scene that runs.
+/// A running scene.
 pub struct SceneRun {
     /// The scene.
     pub simulation: Simulation,
-    /// Where it runs; `None` for blocks whose pairs are searched on the host.
+    /// Device of the run; `None` for blocks with a broadphase on the host.
     pub device: Option<(wgpu::Device, wgpu::Queue)>,
-    /// The adapter of that.
+    /// Adapter of the device.
     pub adapter: Option<wgpu::AdapterInfo>,
     /// Bytes and bindings of a lattice.
     pub memory: Option<Memory>,
@@ -55,7 +56,7 @@ pub struct SceneRun {
     pub warnings: Vec<String>,
     /// Largest speed of water in all readbacks, m/s.
     pub max_water_speed: f64,
-    /// Static solids of a lattice without blocks, where there are views of them.
+    /// Static solids of a lattice without blocks, if there are views of them.
     pub(super) solids: Vec<Block>,
     /// Part of the name of the adapter to draw on.
     drawing_adapter: Option<String>,
@@ -67,7 +68,7 @@ pub struct SceneRun {
     last_water: Option<(u64, Rc<Water>)>,
 }
 
-/// Drives a future to its end, on the device if there is one.
+/// Completes a future, polling the device if there is one.
 fn drive<T>(
     device: Option<&(wgpu::Device, wgpu::Queue)>,
     what: &str,
@@ -80,10 +81,10 @@ fn drive<T>(
 }
 
 impl SceneRun {
-    /// The scene that was read from `file` at its start, on the adapter called `adapter` or on the best one.
+    /// Opens the scene that was read from `file`, at its start, on the adapter called `adapter` or on the best one.
     ///
     /// # Errors
-    /// What the scene lacks, with its line in the file, or what the adapter cannot hold.
+    /// If the scene is invalid, with the line in the file, or does not fit the adapter.
     pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Self> {
         Self::of(scene, adapter).map_err(|error| search::located(error, file))
     }
@@ -111,7 +112,7 @@ impl SceneRun {
                 (None, Some((device, queue)), Some(needs)) => {
                     Simulation::with_needs(device, queue, scene, needs).await
                 }
-                // Refused: only blocks without a fluid have no device.
+                // Simulation refuses this: only blocks without a fluid may lack a device.
                 _ => Simulation::of_rock(None, scene, block_setup(scene)?).await,
             }
         })?;
@@ -136,7 +137,7 @@ impl SceneRun {
             } else {
                 Vec::new()
             },
-            // Pictures are drawn where the fluid is computed.
+            // Pictures are drawn on the adapter that computes the fluid.
             drawing_adapter: match (&info, kind) {
                 (Some(info), Kind::Lattice | Kind::Particles) => Some(info.name.clone()),
                 _ => name.map(Into::into),
@@ -175,17 +176,17 @@ impl SceneRun {
         self.simulation.time()
     }
 
-    /// The lattice and its units, if there is one.
+    /// The lattice and its units, if the scene has a lattice.
     pub fn lattice(&self) -> Option<(&Lattice, &Units)> {
         self.simulation.lattice().zip(self.simulation.units())
     }
 
-    /// Its blocks as they are now, if it has any.
+    /// The present blocks, if the scene has any.
     pub fn rock(&self) -> Option<Rock<'_>> {
         let simulation = &self.simulation;
         let rock = simulation.rock()?;
         let in_fluid = rock.setup().in_fluid;
-        // The faces of the domain that hold blocks come last, and are not shown.
+        // The blocks that represent faces of the domain come last and are not shown.
         let in_domain = in_fluid + self.scene().solids.len();
         let (shown, loaded) = match simulation.kind() {
             Kind::Rock => (rock.blocks().len(), 0),
@@ -204,8 +205,8 @@ impl SceneRun {
         })
     }
 
-    /// Whether its state is worth writing after steps that have left the range of the method: blocks without a fluid go
-    /// back to the last good step.
+    /// Whether its state is worth writing after steps that left the range of the method: blocks without a fluid return to
+    /// the last good step.
     pub fn is_intact(&self) -> bool {
         self.simulation.kind() == Kind::Rock
     }
@@ -213,12 +214,12 @@ impl SceneRun {
     /// Takes `steps` steps; the device is idle at their end.
     ///
     /// # Errors
-    /// Those of [`Simulation::advance`], and a device that does not answer.
+    /// Returns the errors of [`Simulation::advance`], and an error if the device does not answer.
     pub fn advance(&mut self, steps: u64) -> Result<()> {
         let what = format!("{steps} steps");
         drive(self.device.as_ref(), &what, self.simulation.advance(steps))?;
         if let Some((device, _)) = &self.device {
-            // Free water without blocks is still computed: its time would count as output.
+            // Without this wait, the time of free water without blocks would count as output.
             let all = wgpu::PollType::Wait {
                 submission_index: None,
                 timeout: Some(PATIENCE),
@@ -229,16 +230,16 @@ impl SceneRun {
         Ok(())
     }
 
-    /// Restores the state in the file.
+    /// Restores the state from a checkpoint.
     ///
     /// # Errors
-    /// Those of [`Checkpoint::read`] and [`Simulation::restore`].
+    /// Returns the errors of [`Checkpoint::read`] and [`Simulation::restore`].
     pub fn restore(&mut self, path: &Path) -> Result<()> {
         self.last_water = None;
         self.simulation.restore(&Checkpoint::read(path)?)
     }
 
-    /// Writes the state, from which a run goes on to the same bits.
+    /// Writes a checkpoint, from which a run continues bitwise.
     ///
     /// # Errors
     /// If the device is lost, or the file cannot be written.
@@ -250,7 +251,7 @@ impl SceneRun {
     /// The given fields on all cells of the lattice.
     ///
     /// # Errors
-    /// Those of [`Simulation::image`].
+    /// Returns the errors of [`Simulation::image`].
     pub fn image(&mut self, fields: &[Field]) -> Result<Image> {
         let image = self.simulation.image(fields);
         drive(self.device.as_ref(), "reading the fields", image)
@@ -259,16 +260,16 @@ impl SceneRun {
     /// Sums over the lattice.
     ///
     /// # Errors
-    /// Those of [`Simulation::totals`].
+    /// Returns the errors of [`Simulation::totals`].
     pub fn totals(&mut self) -> Result<Totals> {
         let totals = self.simulation.totals();
         drive(self.device.as_ref(), "summing up", totals)
     }
 
-    /// The given fields on the given cells of the lattice; none of a scene without one, whose pictures need none.
+    /// The given fields on the given cells of the lattice; none without a lattice, where pictures need none.
     ///
     /// # Errors
-    /// Those of [`Simulation::read`].
+    /// Returns the errors of [`Simulation::read`].
     pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
         if self.simulation.lattice().is_none() {
             return Ok(Vec::new());
@@ -277,10 +278,10 @@ impl SceneRun {
         drive(self.device.as_ref(), "reading cells", read)
     }
 
-    /// The largest y⁺ beside walls and blocks of the lattice.
+    /// The largest y⁺ at walls and blocks of the lattice.
     ///
     /// # Errors
-    /// Those of [`Simulation::wall_units`].
+    /// Returns the errors of [`Simulation::wall_units`].
     pub fn wall_units(&mut self) -> Result<WallUnits> {
         let found = self.simulation.wall_units();
         drive(self.device.as_ref(), "reading cells beside walls", found)
@@ -289,7 +290,7 @@ impl SceneRun {
     /// The friction on walls with a wall model.
     ///
     /// # Errors
-    /// Those of [`Simulation::wall_friction`].
+    /// Returns the errors of [`Simulation::wall_friction`].
     pub fn wall_friction(&mut self) -> Result<WallFrictions> {
         let found = self.simulation.wall_friction();
         drive(self.device.as_ref(), "reading the friction of walls", found)
@@ -298,7 +299,7 @@ impl SceneRun {
     /// The present state of free water.
     ///
     /// # Errors
-    /// Those of [`Simulation::water`].
+    /// Returns the errors of [`Simulation::water`].
     pub fn water(&mut self) -> Result<Rc<Water>> {
         let step = self.simulation.step();
         if let Some((read, water)) = &self.last_water
@@ -328,10 +329,10 @@ impl SceneRun {
         Ok(self.simulation.ledger(&water)?.since(&self.water_start))
     }
 
-    /// What writes the files of the scene until the step `last`, besides histories and checkpoints.
+    /// The recorders of the scene until the step `last`, except histories and checkpoints.
     ///
     /// # Errors
-    /// If a probe has no place in the scene, or a table cannot be written.
+    /// If a probe cannot be placed in the scene, or a table cannot be written.
     pub fn recorders(&self, folder: &Path, last: u64) -> Result<Recorders> {
         let scene = self.scene();
         let kind = self.simulation.kind();
@@ -359,7 +360,7 @@ impl SceneRun {
         Ok(recorders)
     }
 
-    /// What writes the tables of a probe.
+    /// The recorders of the tables of a probe.
     fn probe(&self, folder: &Path, last: u64, probe: &Probe) -> Result<Recorders> {
         let simulation = &self.simulation;
         match (&probe.place, simulation.kind()) {
@@ -398,7 +399,7 @@ impl SceneRun {
         }
     }
 
-    /// Where it runs, in a line.
+    /// The device of the run, in one line.
     pub fn describe_device(&self) -> String {
         let adapter = self.adapter.as_ref().map(gpu::describe);
         match (adapter, self.simulation.kind()) {
@@ -408,14 +409,14 @@ impl SceneRun {
         }
     }
 
-    /// The blocks in numbers; none of free water in which no block moves.
+    /// The summary of the blocks; `None` for free water in which no block moves.
     fn rocks(&self, rocks: Option<Rocks>) -> Option<Rocks> {
         let is_still = |rock: &riprap::coupling::Rock| !rock.moves();
         let still = self.simulation.rock().is_some_and(is_still);
         rocks.filter(|_| !(still && self.simulation.kind() == Kind::Particles))
     }
 
-    /// What is known before the first step.
+    /// The summary before the first step.
     ///
     /// # Errors
     /// If the bandwidth of the device cannot be measured.
@@ -436,10 +437,10 @@ impl SceneRun {
         })
     }
 
-    /// Bytes a second that the device copies.
+    /// Copy bandwidth of the device, bytes per second.
     ///
     /// # Errors
-    /// If that cannot be measured.
+    /// If it cannot be measured.
     pub fn bandwidth(&self) -> Result<f64> {
         match &self.device {
             Some((device, queue)) => copy_bandwidth(device, queue, BYTES),
@@ -447,7 +448,7 @@ impl SceneRun {
         }
     }
 
-    /// How fast it runs, in a few words.
+    /// The speed of the run, in a few words.
     pub fn describe(&self, summary: &Summary, throughput: &Throughput) -> String {
         let activity = self.rock().map(|rock| rock.activity());
         let fluid = match self.simulation.kind() {
@@ -494,7 +495,7 @@ impl SceneRun {
                     summary.warnings.extend(pool.warnings(self));
                     summary.pool = Some(pool);
                 }
-                // On a lost device the run has already reported the error.
+                // If the device is lost, the run has already reported the error.
                 summary.water_energies = self.water_ledger().ok().map(Energies::of);
             }
         }

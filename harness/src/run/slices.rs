@@ -16,7 +16,7 @@ use riprap::{
 };
 use std::path::Path;
 
-/// What draws the pictures of `slice` until the step `last`.
+/// The recorder of the pictures of `slice` until the step `last`.
 pub fn recorder(
     run: &SceneRun,
     folder: &Path,
@@ -73,9 +73,9 @@ pub fn recorder(
     Box::new((schedule, record))
 }
 
-/// How a field of a slice is shown.
+/// How a field of a slice is drawn.
 pub struct SliceQuantity {
-    /// The field that it is taken from.
+    /// The field of the lattice from which it is computed.
     pub field: Field,
     /// Its name.
     pub label: &'static str,
@@ -84,7 +84,7 @@ pub struct SliceQuantity {
 }
 
 impl SliceQuantity {
-    /// How `field` is shown.
+    /// The quantity of `field`.
     pub fn of(field: SliceField) -> Self {
         let (label, unit) = match field {
             SliceField::Speed => ("speed", "m/s"),
@@ -105,7 +105,7 @@ impl SliceQuantity {
         }
     }
 
-    /// What is shown of the array of its field.
+    /// The quantity as computed from the array of its field.
     pub fn quantity(&self) -> Quantity<'static> {
         match self.field.components() {
             3 => Quantity::Magnitude(self.field.name()),
@@ -113,7 +113,7 @@ impl SliceQuantity {
         }
     }
 
-    /// Its colours in space.
+    /// Its colours in views.
     pub fn colours(&self, range: Option<[f64; 2]>) -> Colours {
         Colours {
             label: self.label.into(),

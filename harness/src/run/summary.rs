@@ -1,4 +1,4 @@
-//! What a run was, for people and for programs: `summary.json`.
+//! The summary of a run, for people and for programs: `summary.json`.
 
 use super::{
     estimate::Estimate,
@@ -18,37 +18,37 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// A run in numbers.
+/// Summary of a run.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Summary {
-    /// The scene's file.
+    /// The scene file.
     pub scene: String,
     /// The scene's title.
     pub title: String,
     /// Adapter, interface and driver.
     pub adapter: String,
-    /// The lattice, where there is one.
+    /// The lattice, if there is one.
     #[serde(flatten)]
     pub lattice: Option<LatticeSummary>,
     /// Time step, s.
     pub time_step: f64,
     /// Step at which this run began: 0, or that of the checkpoint.
     pub first_step: u64,
-    /// Steps that the flow has made, those before a restart included.
+    /// Steps done, those before a restart included.
     pub steps: u64,
     /// Simulated time, s.
     pub time: f64,
-    /// Whether the run came to its end.
+    /// Whether the run reached its end.
     pub complete: bool,
-    /// Seconds that this run took, with everything it wrote.
+    /// Seconds that this run took, output included.
     pub seconds: f64,
     /// Whether the flow left the range of the method.
     pub diverged: bool,
-    /// Why, where, and what to change, if it did.
+    /// Why and where it diverged, and what to change.
     pub divergence: Option<String>,
-    /// What may disappoint.
+    /// Warnings about the scene and its results.
     pub warnings: Vec<String>,
-    /// What was written.
+    /// Files written.
     pub files: Vec<PathBuf>,
     /// The last checkpoint of this run, or the one that it began with.
     pub checkpoint: Option<PathBuf>,
@@ -61,37 +61,37 @@ pub struct Summary {
     /// Largest y⁺ half a cell from a block at the end, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub y_plus_blocks: Option<f64>,
-    /// What a wall model did, where there is one.
+    /// The wall model, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wall_model: Option<WallModelSummary>,
-    /// How blocks and fluid met, where there are both.
+    /// The coupling, if there are blocks in a fluid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Coupling>,
-    /// What particles of water did, where there are some.
+    /// The particles of water, if there are some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pool: Option<WaterSummary>,
-    /// Where the energy of the particles is and where it went.
+    /// Energy balance of the particles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub water_energies: Option<Energies>,
-    /// What blocks did, where there are some.
+    /// The blocks, if there are some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rocks: Option<Rocks>,
-    /// What was not done because nothing needed it.
+    /// Work that was skipped because nothing needed it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub left_out: Vec<LeftOut>,
-    /// How safely blocks stand whose probes ask.
+    /// Factors of safety of the blocks whose probes request them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub safety: Vec<Safety>,
     /// Statistical errors of the means, in a run with `--until-error`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub statistics: Option<Converged>,
-    /// How far headline numbers are from those at half the resolution, where that was asked for.
+    /// Differences of headline numbers from those at half the resolution, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<Estimate>,
 }
 
 impl Summary {
-    /// Takes over what recorders noted.
+    /// Takes over the notes of the recorders.
     pub fn take(&mut self, log: &RunLog) {
         self.files.clone_from(&log.files);
         self.safety.clone_from(&log.safety);
@@ -102,7 +102,7 @@ impl Summary {
         }
     }
 
-    /// Adds what blocks and particles did without to what the fluid does.
+    /// Adds the work that blocks and particles skipped to that of the fluid.
     pub fn tell_left_out(&mut self) {
         let (coupling, rocks, pool) = (&self.coupling, &self.rocks, &self.pool);
         self.left_out
@@ -112,7 +112,7 @@ impl Summary {
         self.left_out.extend(pool.iter().flat_map(LeftOut::of_pool));
     }
 
-    /// Writes `summary.json` into `folder`, itself among the files.
+    /// Writes `summary.json` into `folder` and lists it among the files.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -126,7 +126,7 @@ impl Summary {
         Ok(())
     }
 
-    /// What is on disk, in a sentence.
+    /// The files on disk, in one sentence.
     pub fn kept(&self) -> String {
         kept(
             self.checkpoint.as_deref(),
@@ -143,7 +143,7 @@ fn kept(checkpoint: Option<&Path>, step: Option<u64>, files: usize) -> String {
             path.display()
         ),
         _ => format!(
-            "{files} files are kept, and no checkpoint: run.checkpoint_every gives earlier ones, where the disk has room"
+            "{files} files are kept, and no checkpoint: run.checkpoint_every gives earlier ones, if the disk has room"
         ),
     }
 }
@@ -211,12 +211,12 @@ impl fmt::Display for Summary {
     }
 }
 
-/// How far a run came that something other than the flow ended: the disk, the device.
+/// Context of the error of a run that something other than the flow ended: the disk, the device.
 #[derive(Clone, Debug)]
 pub struct Unfinished {
     /// Steps done.
     pub step: u64,
-    /// What is on disk.
+    /// Files on disk, in one sentence.
     pub kept: String,
 }
 

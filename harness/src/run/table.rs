@@ -1,4 +1,4 @@
-//! Tables of what is measured over time, `NAME.csv`, and their curves, `NAME.png`.
+//! Tables of measurements over time, `NAME.csv`, and their curves, `NAME.png`.
 
 use super::{
     recorder::{Recorder, RunLog, Schedule},
@@ -10,19 +10,19 @@ use anyhow::{Result, anyhow};
 use riprap::output::{Csv, Table};
 use std::path::{Path, PathBuf};
 
-/// A table and what is drawn of it.
+/// A table and its curves.
 pub struct TimeTable {
     /// Name of its files.
     pub name: String,
     /// s between rows.
     pub every: Option<f64>,
-    /// Columns beside step and time.
+    /// Columns other than step and time.
     pub columns: Vec<String>,
-    /// How many of these, the first ones, say where a row was measured; none in a table that has no statistics.
+    /// Number of leading columns with the place of a row; `None` for a table without statistics.
     pub coordinates: Option<usize>,
-    /// Curves that are drawn at the end, if there are any.
+    /// Curves drawn at the end, if there are any.
     pub tracks: Vec<Track>,
-    /// Title above them.
+    /// Title above the curves.
     pub title: String,
 }
 
@@ -30,10 +30,10 @@ pub struct TimeTable {
 type Rows = Box<dyn FnMut(&mut SceneRun, &mut RunLog) -> Result<Vec<Vec<f64>>>>;
 
 impl TimeTable {
-    /// Begins the table in `folder`, or goes on with it after a restart; `rows` are due until the step `last`.
+    /// Creates the table in `folder`, or continues it after a restart; `rows` are due until the step `last`.
     ///
     /// # Errors
-    /// If the table cannot be written or is another one.
+    /// If the table cannot be written or has other columns.
     pub fn recorder(
         self,
         run: &SceneRun,
@@ -98,7 +98,7 @@ impl Recorder for TableRecorder {
         self.statistics.as_ref()
     }
 
-    /// Writes the statistics, and draws the tracks; nothing where the table has fewer than two moments, or no number in them.
+    /// Writes the statistics and draws the tracks; draws nothing if the table has fewer than two times, or no finite number.
     fn finish(&mut self, run: &SceneRun, log: &mut RunLog) -> Result<()> {
         if let Some(statistics) = &self.statistics {
             statistics.write(log, run.step(), run.time())?;

@@ -1,26 +1,26 @@
-//! How fast a run goes, how many steps it submits at a time, and the times of their phases. Its first steps, in which
-//! drivers compile the kernels, are timed apart.
+//! Speed of a run, number of steps per submission, and times of their phases. The first steps, in which drivers compile
+//! the kernels, are timed separately.
 
 use riprap::simulation::Phase;
 use std::{fmt::Write, time::Duration};
 
-/// Steps that are timed apart: an in-place lattice has kernels for even and for odd steps, and drivers compile each at its
-/// first dispatch.
+/// Steps that are timed separately: an in-place lattice has kernels for even and for odd steps, and drivers compile each at
+/// its first dispatch.
 const FIRST: u64 = 2;
 
-/// Steps and the time that they took, without what was written.
+/// Steps and the time that they took, without output.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timed {
     /// Steps of the scene.
     pub steps: u64,
-    /// Steps of its fluid: a step of the scene takes several of particles.
+    /// Steps of its fluid: free water takes several per step of the scene.
     pub fluid_steps: u64,
-    /// What they took; the device is idle at both ends.
+    /// Duration; the device is idle at both ends.
     pub time: Duration,
 }
 
 impl Timed {
-    /// `count` over its time, 1/s.
+    /// `count` per duration, 1/s.
     pub fn rate(&self, count: u64) -> f64 {
         count as f64 / self.time.as_secs_f64().max(1e-9)
     }
@@ -40,7 +40,7 @@ pub struct Throughput {
 }
 
 impl Throughput {
-    /// Counts a batch of steps.
+    /// Adds a batch of steps.
     pub fn add(&mut self, batch: Timed) {
         match self.first.steps < FIRST {
             true => self.first.add(batch),
@@ -55,7 +55,7 @@ impl Throughput {
         whole
     }
 
-    /// The steps from which speeds follow: without those in which kernels were compiled, or all where there are no others.
+    /// The steps used for speeds: all except those in which kernels were compiled, or all if there are no others.
     pub fn warm(&self) -> Timed {
         match self.rest.steps {
             0 => self.first,
@@ -64,13 +64,13 @@ impl Throughput {
     }
 }
 
-/// Long enough to hide what a submission costs, short enough for Ctrl-C and for drivers that end
+/// Duration of a batch, s: long enough to hide the cost of a submission, short enough for Ctrl-C and for drivers that end
 /// long work.
 const BATCH_TIME: f64 = 0.25;
 /// Growth from one batch to the next: a first measurement on a cold device may be far off.
 const GROWTH: u64 = 4;
 
-/// Steps a submission, learnt from those before.
+/// Steps per submission, adapted to the duration of those before.
 #[derive(Clone, Copy, Debug)]
 pub struct Batch(u64);
 
@@ -84,16 +84,16 @@ impl Batch {
         self.0
     }
 
-    /// `steps` took `time`.
+    /// Adapts the batch to `steps` that took `time`.
     pub fn learn(&mut self, steps: u64, time: Duration) {
         let fit = BATCH_TIME * steps as f64 / time.as_secs_f64().max(1e-9);
-        // A batch that an output cut short says nothing against longer ones.
+        // A batch that output cut short is no reason against longer ones.
         let most = GROWTH * self.0.max(steps);
         self.0 = (fit as u64).clamp(1, most);
     }
 }
 
-/// A line for each phase: its name, how often it ran, and its times.
+/// One line per phase: its name, its count and its times.
 pub fn phase_table(phases: &[Phase]) -> String {
     let mut text = format!(
         "{:20} {:>10} {:>12} {:>12}\n",
@@ -106,7 +106,7 @@ pub fn phase_table(phases: &[Phase]) -> String {
     } in phases
     {
         let mean = 1e3 * seconds / (*count).max(1) as f64;
-        // A String takes all that is written to it.
+        // Writing to a `String` cannot fail.
         let _ = writeln!(text, "{name:20} {count:>10} {mean:>12.4} {seconds:>12.4}");
     }
     text
@@ -124,12 +124,12 @@ mod tests {
         }
     }
 
-    /// A first step of 2 s and 50 of 10 ms each: 100 steps a second, not 20.
+    /// A first step of 2 s and 50 of 10 ms each: 100 steps per second, not 20.
     #[test]
     fn compilation_does_not_count_in_speeds() {
         let mut throughput = Throughput::default();
         throughput.add(batch(1, 2000));
-        // All that there is.
+        // No other steps yet.
         assert_eq!(throughput.warm(), batch(1, 2000));
         throughput.add(batch(1, 1000));
         assert_eq!(throughput.warm(), batch(2, 3000));

@@ -4,7 +4,7 @@ use super::{scene_run::SceneRun, summary::Summary};
 use riprap::simulation::{FirstCell, SUBLAYER};
 
 impl SceneRun {
-    /// Adds the largest y⁺ to the summary, and a warning if it is beyond the viscous sublayer; not of a flow that has
+    /// Adds the largest y⁺ to the summary, and a warning if it is beyond the viscous sublayer; nothing for a flow that has
     /// diverged.
     pub(super) fn report_wall_units(&mut self, summary: &mut Summary) {
         if summary.diverged {
@@ -32,10 +32,10 @@ impl SceneRun {
         }
     }
 
-    /// What a large y⁺ means for the numbers of a run.
+    /// The warning about a large y⁺ and its effect on the results.
     fn warning(&self, cell: &FirstCell, beside: &str) -> String {
         let [x, y, z] = cell.position;
-        // With the same friction.
+        // Assumes the same friction.
         let finer = self.scene().domain.cell * SUBLAYER / cell.y_plus;
         format!(
             "y⁺ is at least {:.1} beside {beside} at ({x:.4}, {y:.4}, {z:.4}) m, above {SUBLAYER}: no-slip \

@@ -1,4 +1,4 @@
-//! The friction of walls and blocks with a wall model over time: `walls.csv`, one row a time.
+//! The friction on walls and blocks with a wall model over time: `walls.csv`, one row per time.
 
 use super::{recorder::Recorder, scene_run::SceneRun, summary::Summary, table::TimeTable};
 use crate::picture::Track;
@@ -6,23 +6,23 @@ use riprap::simulation::{WallFriction, WallFrictions, WallPlace};
 use serde::Serialize;
 use std::{fmt, path::Path};
 
-/// What a wall model did, for the summary.
+/// The wall model in the summary.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct WallModelSummary {
-    /// Part of the area of walls and solids at rest on which it acts.
+    /// Fraction of the area of walls and solids at rest with the model.
     pub area_share: f64,
-    /// Part of the area of the faces of blocks on which it acts; 0 without blocks.
+    /// Fraction of the area of the faces of blocks with the model; 0 without blocks.
     pub block_area_share: f64,
-    /// Mean y⁺ of the first cell there at the end.
+    /// Mean y⁺ of the first cell at these faces at the end.
     pub y_plus_mean: f64,
-    /// Largest.
+    /// Largest y⁺ of these cells.
     pub y_plus_max: f64,
     /// Mean magnitude of the stress, Pa, where the law gives all of it.
     pub stress_mean: f64,
 }
 
 impl WallModelSummary {
-    /// Of the frictions at the end; none without a model.
+    /// The summary of the frictions at the end; `None` without a model.
     pub fn of(frictions: &WallFrictions) -> Option<Self> {
         let walls = &frictions.walls;
         if walls.is_empty() {
@@ -59,7 +59,7 @@ impl fmt::Display for WallModelSummary {
     }
 }
 
-/// 0 of nothing.
+/// Mean of `values`; 0 if there are none.
 fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0);
     for value in values {
@@ -69,7 +69,7 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// A row of the table: of each place that has the model the columns of [`columns`].
+/// A row of the table: the [`columns`] for each place that has the model.
 fn row(frictions: &WallFrictions, places: &[WallPlace]) -> Vec<f64> {
     let of = |place: &WallPlace| {
         let own = || {
@@ -105,7 +105,7 @@ fn columns(places: &[WallPlace]) -> Vec<String> {
     places.iter().flat_map(of).collect()
 }
 
-/// What writes the table; none without a model.
+/// The recorder of the table; `None` without a model.
 ///
 /// # Errors
 /// If it cannot be written.
@@ -134,7 +134,7 @@ pub fn recorder(
 }
 
 impl SceneRun {
-    /// Adds what the wall model did to the summary.
+    /// Adds the wall model to the summary.
     pub(super) fn report_wall_model(&mut self, summary: &mut Summary) {
         match self.wall_friction() {
             Ok(found) => summary.wall_model = WallModelSummary::of(&found),

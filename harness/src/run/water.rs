@@ -44,7 +44,7 @@ pub struct WaterSummary {
     pub max_speed: f64,
     /// Its Mach number.
     pub max_mach: f64,
-    /// Updates per second of fluid particles in the domain and of boundary particles, whose pressures each step computes,
+    /// Updates per second of fluid particles in the domain and of boundary particles, whose pressure is computed in each step,
     /// without output and without the first steps, in which drivers compile the kernels.
     pub updates_a_second: f64,
 }
@@ -164,7 +164,7 @@ pub struct Energies {
     pub pressed: f64,
     /// Dissipated energy, with the error of the time integration.
     pub dissipated: f64,
-    /// Work of blocks on the water and in joints, along their own motion.
+    /// Work of blocks on the water and in joints, computed from their own motion.
     pub blocks: f64,
     /// Work of blocks in joints that have no particles.
     pub joints: f64,

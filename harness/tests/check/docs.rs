@@ -1,4 +1,4 @@
-//! The documents: links resolve, scenes in them parse, and paths that they name exist.
+//! The documents: links resolve, scenes in them parse, and the paths they name exist.
 
 use riprap::scene::Scene;
 use std::{
@@ -176,7 +176,7 @@ fn paths_in_documents_exist() {
     for document in ["ARCHITECTURE.md", "CONTRIBUTING.md", "kernels/SLOTS.md"] {
         for (line, prose) in parts(&read(Path::new(document))).prose {
             for code in prose.split('`').skip(1).step_by(2) {
-                // `harness/results/*.json` and `NAME` stand for many.
+                // Names such as `harness/results/*.json` and `NAME` stand for many files.
                 let many = code.contains(['*', ' ', '<']) || code.contains("NAME");
                 if many || !FOLDERS.iter().any(|folder| code.starts_with(folder)) {
                     continue;

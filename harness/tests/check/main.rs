@@ -1,4 +1,4 @@
-//! `riprap check` and what it reads: reports, refusals, spoilt input, the scenes and the documents of the repository.
+//! `riprap check` and its input: reports, refusals, corrupted input, the scenes and the documents of the repository.
 
 mod docs;
 mod mutants;

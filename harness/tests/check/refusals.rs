@@ -1,12 +1,12 @@
-//! What a user gets wrong: refusals end `riprap check` with code 2, warnings are printed, and both say where and what instead.
-//! Which scenes are refused, `tests/scene/` says.
+//! Errors of users: refusals end `riprap check` with code 2, warnings are printed, and both give the place and a remedy.
+//! The complete list of refused scenes is in `tests/scene/`.
 
 use std::{
     path::PathBuf,
     process::{Command, Output},
 };
 
-/// A scene that is right, to be spoilt.
+/// A valid scene, to be corrupted.
 const RIGHT: &str = r#"
 [domain]
 size = [0.08, 0.08, 0.04]
@@ -38,7 +38,7 @@ fn check(name: &str, text: &str) -> Command {
     command
 }
 
-/// What the program says when it refuses.
+/// The message of the program when it refuses.
 fn refusal(command: &mut Command) -> String {
     let Output {
         status,
@@ -52,7 +52,7 @@ fn refusal(command: &mut Command) -> String {
     said
 }
 
-/// A tank with a sill at either end, 15 × 10 particles without them, to be spoilt.
+/// A tank with a sill at either end, 15 × 10 particles without them, to be corrupted.
 const TANK: &str = r#"
 title = "tank"
 [domain]
@@ -95,7 +95,7 @@ steps = 3
 /// The end of the right sill.
 const SILL: &str = "position = [1, 0.5, 0.2]\nmotion = \"fixed\"";
 
-/// The refusal of a text contains the name of its file and each of `words`.
+/// Asserts that the refusal of a text contains the name of its file and each of `words`.
 #[track_caller]
 fn refused(name: &str, text: &str, words: &[&str]) {
     let said = refusal(&mut check(name, text));
@@ -169,8 +169,8 @@ fn scenes_are_refused_at_their_key() {
     }
 }
 
-/// 1.3e8 cells pass for a scene, but one of 27 directions alone is 526 MB in f32, and few bindings hold several each.
-/// Where bindings hold them, what a scene may have is the limit.
+/// A scene may have 1.3e8 cells, but the populations of one of 27 directions are 526 MB in f32, and a device with few
+/// bindings must hold several of them in each. If the bindings suffice, the limit is that of scenes.
 #[test]
 fn more_cells_than_the_device_holds() {
     let mut list = Command::new(env!("CARGO_BIN_EXE_riprap"));
@@ -178,7 +178,7 @@ fn more_cells_than_the_device_holds() {
     let adapters: serde_json::Value = serde_json::from_slice(&adapters).unwrap();
     let limit = |name: &str| adapters[0]["limits"][name].as_u64().unwrap();
     let binding = limit("storage_binding_bytes").min(limit("buffer_bytes"));
-    // Flags and the four results of the kernel of output take five.
+    // Five bindings are taken by the flags and the four results of the output kernel.
     let wants = 525_927_680 * 27_u64.div_ceil(limit("storage_buffers") - 5);
     let (cell, words) = if wants > binding {
         let numbers = format!("wants {wants}, the adapter has {binding}; the adapter holds about");
@@ -232,7 +232,7 @@ fn an_unknown_subcommand() {
     assert!(said.contains("check"), "{said}");
 }
 
-/// The tank with `from` replaced by `to` is warned of in one line with all `words`.
+/// Asserts that the tank with pieces replaced gives a warning in one line with all `words`.
 #[track_caller]
 fn tank_warned(name: &str, changes: &[(&str, &str)], words: &[&str]) {
     let found = warnings(&format!("water_{name}"), &tank(changes));
@@ -276,7 +276,7 @@ fn free_water_is_warned_of() {
             "give 3.000 m/s",
         ],
     );
-    // Nothing holds the water.
+    // Without sills nothing contains the water.
     let sills = TANK.find("[[materials]]").unwrap()..TANK.find("[run]").unwrap();
     let faces = "z_min = { kind = \"wall\" }\nz_max = { kind = \"open\" }\n";
     tank_warned(

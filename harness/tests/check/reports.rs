@@ -1,4 +1,4 @@
-//! What `check`, `adapters` and `schema` say.
+//! Output of `check`, `adapters` and `schema`.
 
 use kit::scene::STILL_WATER;
 use serde_json::Value;
@@ -18,7 +18,7 @@ fn scene(name: &str) -> String {
     format!("{}/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// 64 × 64 × 4 periodic cells without forces: one kernel, and nothing that it does not need.
+/// 64 × 64 × 4 periodic cells without forces: one kernel, without unused features.
 #[test]
 fn a_periodic_scene_runs_one_kernel() {
     let report = json(&["check", &scene("taylor_green"), "--json"]);
@@ -91,7 +91,7 @@ fn the_report_for_people_has_the_same_facts() {
     }
 }
 
-/// Its speed of sound is √5 of the largest speed.
+/// In this scheme the speed of sound is √5 times the largest speed.
 #[test]
 fn the_published_scheme_of_particles_has_its_own_sound() {
     let text = STILL_WATER.replace("plane = true", "plane = true\nscheme = \"mueller\"");
@@ -141,7 +141,7 @@ fn the_schema_is_that_of_scenes() {
     }
 }
 
-/// A cube of 12 cells an edge: the drag on it is as far off as the report found on bodies of its size.
+/// A cube with 12 cells along an edge: the error of its drag is that of the report on bodies of its size.
 #[test]
 fn the_error_of_the_drag_is_that_of_the_report() {
     let report = json(&["check", &scene("incline_flow"), "--json"]);
@@ -154,7 +154,7 @@ fn the_error_of_the_drag_is_that_of_the_report() {
     assert!(0.0 < low && low <= high && high < 0.5, "{accuracy}");
 }
 
-/// By the cubic law, from what one row of cells lets through at low viscosity and what two do: 0.692 and 2.82 of a cell and step.
+/// By the cubic law, from the conductances of one and of two rows of cells at low viscosity: 0.692 and 2.82 in lattice units.
 #[test]
 fn the_apertures_of_closed_joints_are_in_metres() {
     let report = json(&["check", &scene("incline_flow"), "--json"]);
@@ -166,14 +166,14 @@ fn the_apertures_of_closed_joints_are_in_metres() {
         let expected = (12.0 * viscosity * conductance * cell * step).cbrt();
         assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
     }
-    // The half times are those of D = C/7 in two rows and C/4 in a shared one, in squares of 12 cells.
+    // The half times follow from D = C/7 in two rows and C/4 in a shared one, for squares of 12 cells.
     let expected = [7.0 / 2.82, 4.0 / 0.692].map(|slow| 0.0594 * 144.0 * slow * step);
     for (found, expected) in pair("times").iter().zip(expected) {
         assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
     }
 }
 
-/// Each program once, complete, with the files of its slots.
+/// Each program is written once, complete, with the files of its slots.
 #[test]
 fn the_kernels_of_a_scene_are_written() {
     for (name, some) in [

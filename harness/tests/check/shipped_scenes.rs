@@ -1,4 +1,4 @@
-//! The scenes that come with the harness.
+//! The scenes shipped with the harness.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ fn shipped_scenes_are_sound_and_run_in_minutes() {
             continue;
         }
         if scene.has_blocks() {
-            // How long they take, their comments say: it depends on contacts that come and go.
+            // Their run times are given in their comments: they depend on contacts that form and end.
             let setup = block_setup(&scene).unwrap().setup;
             assert!(setup.blocks.iter().any(|b| b.motion != Motion::Fixed));
             continue;

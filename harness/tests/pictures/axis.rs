@@ -1,4 +1,4 @@
-//! Axes: ticks at round values, labels that say what the ticks are.
+//! Axes: ticks at round values, and labels that equal them.
 
 use riprap_harness::picture::{Axis, Scale};
 
@@ -32,7 +32,7 @@ fn labels_times_the_titles_factor_are_the_ticks_values() {
             for most in 1..=10 {
                 let ticks = axis.ticks(most);
                 assert!(ticks.len() <= most, "{most}: {ticks:?}");
-                // Five hold −4 to 4 in steps of 2; fewer may leave nothing but 0 of that range.
+                // Five ticks hold −4 to 4 in steps of 2; fewer may leave only 0 of that range.
                 assert!(most < 5 || ticks.len() >= 2, "{range:?} {most}: {ticks:?}");
                 for (value, label) in &ticks {
                     let shown = parse(label) * factor;

@@ -1,4 +1,4 @@
-//! Pictures: what they show is where and what the data are, and what cannot be shown is reported.
+//! Pictures show the data at the right places, and what cannot be drawn is reported.
 
 mod axis;
 mod render;

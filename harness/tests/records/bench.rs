@@ -1,4 +1,4 @@
-//! What the rock part of the bench writes, and how it fits exponents. No time is looked at.
+//! Output of the rock part of the benchmark, and its fit of exponents. Times are not checked.
 
 use kit::assert_near;
 
@@ -75,7 +75,7 @@ fn rows_have_the_fields_that_readers_of_the_json_look_for() {
     let last = &rows[rows.len() - 2];
     assert!(last["exponent"].is_f64());
 
-    // Beside fixed blocks, the resolver is called for the one that the block stands on.
+    // Besides fixed blocks, the resolver is called for the one that the block stands on.
     for row in &rows[6..8] {
         assert_eq!(
             (row["pairs"].as_u64(), row["contacts"].as_u64()),
@@ -84,7 +84,7 @@ fn rows_have_the_fields_that_readers_of_the_json_look_for() {
         assert!(row["ratio"].is_f64());
     }
 
-    // The pile rests on contacts of which it says how they were decided, and where the time went.
+    // The pile has contacts and reports how they were decided, and the times of the parts of a step.
     assert!(last["contacts"].as_u64() > last["count"].as_u64());
     assert!(last["share_of_programs"].as_f64().unwrap() <= 1.0);
     assert!(last["largest_speed"].as_f64().unwrap() < 0.01);

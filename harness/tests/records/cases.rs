@@ -1,8 +1,8 @@
-//! Cases of `riprap validate` in their short form: that they pass is the test of what they compute.
+//! Cases of `riprap validate` in their short form: they test themselves.
 
 use riprap_harness::validate::{Args, run};
 
-/// Runs the cases that match; what they find is printed.
+/// Runs the cases that match `pattern` and prints their results.
 fn assert_pass(pattern: &str) {
     let passed = run(Args {
         case: Some(pattern.into()),

@@ -1,4 +1,4 @@
-//! Records of speed and validation, and the short cases of validation. No time is looked at.
+//! Records of speed and validation, and the short validation cases. Times are not checked.
 
 mod bench;
 mod cases;

@@ -1,4 +1,4 @@
-//! How cases are named and selected, and what their records say.
+//! Names, selection and records of cases.
 
 use kit::assert_near;
 

@@ -1,5 +1,4 @@
-//! Blocks that a scene cuts by joints that are not open everywhere, or takes from meshes, from the scene to
-//! the forces.
+//! Blocks cut by joints that are partly open, and blocks from meshes, from the scene to the forces.
 
 use crate::fixture::{args, check, folder, go, last, restarted};
 use kit::{assert_contains, assert_relative};
@@ -19,8 +18,8 @@ normal_stiffness = 1e8
 friction = 30
 "#;
 
-/// 64 columns of 1 m × 1 m × 2 m, crossed at three quarters of their height by one joint of which `open`
-/// says how much is open. What is as low as the middle of a whole column is fixed, gravity points upwards.
+/// 64 columns of 1 m × 1 m × 2 m, crossed at three quarters of their height by one joint whose open part is given by
+/// `open`. Blocks that reach below half of the height are fixed; gravity points upwards.
 fn columns(open: &str) -> String {
     format!(
         r#"
@@ -53,14 +52,14 @@ every = 0.025
     )
 }
 
-/// Free blocks on 64 columns, and the kinetic energy of all that has come off.
+/// Number of free blocks on 64 columns, all of which must fall off.
 fn come_off(open: &str, name: &str) -> usize {
     let folder = folder(name);
     let text = columns(open);
     let (told, _) = check(&folder, &text);
     let free = told["free"].as_u64().unwrap() as usize - 1;
     assert_eq!(told["blocks"].as_u64().unwrap() as usize, 65 + free);
-    // Nothing holds what the joint has cut off: ½m(gt)², of half a cubic metre each and of `alone`.
+    // Nothing holds the free pieces: ½m(gt)², of half a cubic metre each and of `alone`.
     let summary = go(&args(&folder, &text, "out"));
     let mass = DENSITY * (0.5 * free as f64 + 1.0);
     assert_relative(told["mass"].as_f64().unwrap(), mass, 1e-9);
@@ -75,7 +74,7 @@ fn rock_comes_off_where_a_joint_is_open() {
     let share = |fraction: f64| format!(", persistence = {{ fraction = {fraction}, length = 1 }}");
     assert_eq!(come_off(&share(1.0), "shapes_all"), 64);
     assert_eq!(come_off(&share(0.0), "shapes_none"), 0);
-    // A square for each column: 32 ± 4 of 64.
+    // An open square for half of the columns: 32 ± 4 of 64.
     let half = come_off(&share(0.5), "shapes_half");
     assert!((16..=48).contains(&half), "{half}");
 }
@@ -122,7 +121,7 @@ fn write_l(folder: &Path) {
     fs::write(folder.join("l.stl"), text + "endsolid l\n").unwrap();
 }
 
-/// The L on a floor, itself or its hull, damped until it rests.
+/// The L or its hull on a floor, damped until it rests.
 fn lying(hull: bool, more: &str) -> String {
     format!(
         r#"
@@ -154,7 +153,7 @@ every = 0.1
     )
 }
 
-/// A cube in the angle of the L, clear of it but in its hull.
+/// A cube in the angle of the L, clear of it but inside its hull.
 const CUBE: &str = r#"
 [[blocks]]
 name = "cube"
@@ -165,7 +164,7 @@ position = [1.25, 0.5, 1.2]
 
 #[test]
 fn a_mesh_and_its_hull_lie_on_a_floor_with_their_own_weights() {
-    // Six square metres less the angle, and less half of it.
+    // Six square metres less the angle, and less half of it for the hull.
     for (hull, area, parts) in [(false, 4.0, 2), (true, 5.0, 1)] {
         let folder = folder(&format!("shapes_lying_{hull}"));
         write_l(&folder);
@@ -177,7 +176,7 @@ fn a_mesh_and_its_hull_lie_on_a_floor_with_their_own_weights() {
         let weight = DENSITY * area * GRAVITY;
         let held = last(&table, "force_z");
         assert_relative(held, weight, 1e-4);
-        // Nothing pushes it aside: the pressure is centred under the centroid.
+        // No sideways force: the pressure is centred under the centroid.
         let turned = last(&table, "rotation_y").abs();
         assert!(turned < 0.01, "{turned}°");
     }

@@ -9,7 +9,7 @@ use riprap_harness::run::Args;
 use serde_json::Value;
 use std::fs;
 
-/// A stone that lies on the bed of a short channel and a ball that sinks, driven along by the flow.
+/// A stone on the bed of a short channel, and a sinking ball that the flow carries along.
 const CHANNEL: &str = r#"
 title = "channel"
 [domain]
@@ -68,7 +68,7 @@ size = [320, 240]
 slices = [{ axis = "y", field = "speed" }]
 "#;
 
-/// A cube that is held in water at rest between walls, 8 cells across.
+/// A cube held in water at rest between walls, 8 cells across.
 const HELD: &str = r#"
 title = "held"
 [domain]
@@ -127,12 +127,12 @@ fn a_coupled_run_writes_what_both_write() {
     ] {
         assert!(summary.files.contains(&out.join(name)), "{name}");
     }
-    // The flow strikes the stone; Archimedes with ρ g = 9810 N/m³ holds up 0.314 N of it.
+    // The flow pushes the stone; buoyancy with ρ g = 9810 N/m³ carries 0.314 N of it.
     let stone = out.join("stone.csv");
     assert!(column(&stone, "fluid_force_x")[1] > 0.0);
     let buoyancy = last(&stone, "buoyancy_z");
     assert_relative(buoyancy, 0.31392, 0.01);
-    // Contacts carry the weight of 0.832 N less that, in the mean: the stone was put down at once.
+    // Contacts carry the weight of 0.832 N less buoyancy on average: the stone was set down at once.
     let held: Vec<f64> = column(&stone, "force_z");
     assert!(held.iter().any(|force| *force > 0.2), "{held:?}");
     let history = out.join("history.csv");
@@ -143,7 +143,7 @@ fn a_coupled_run_writes_what_both_write() {
     assert_eq!(last(&history, "awake_blocks"), 2.0);
 
     let blocks = read_with_vtk(&out.join("blocks.pvd"));
-    // Walls hold the blocks, and are not drawn.
+    // Walls are blocks too, but are not drawn.
     assert_eq!(blocks["cells"].as_array().unwrap().len(), 2);
     let arrays = &blocks["arrays"];
     let force = arrays["fluid_force"][0][0].as_f64().unwrap();
@@ -169,11 +169,11 @@ fn a_coupled_run_writes_what_both_write() {
 #[test]
 fn a_coupled_restart_goes_on_to_the_same_bits() {
     let folder = folder("coupled_restart");
-    // A point in a cell that the ball cuts, where the fluid is shown with what the ball did to it in the last step.
+    // A point in a cell that the ball cuts, whose fluid velocity includes the effect of the ball in the last step.
     let text = CHANNEL.replace("every = 0.02", "every = 0.01");
     let text = text.replace("[0.1, 0.04, 0.01]", "[0.119, 0.04, 0.05]");
     let text = &text[..text.find("[[views]]").unwrap()];
-    // At the step of the cut fields and probes are due.
+    // At the step of the cut, fields and probes are due.
     let files = [
         "checkpoint.riprap",
         "blocks_000040.vtu",
@@ -185,7 +185,7 @@ fn a_coupled_restart_goes_on_to_the_same_bits() {
         "blocks.pvd",
     ];
     restarted(&folder, text, 28, &files);
-    // In a folder where nothing of the first part is.
+    // In a folder without the files of the first part.
     let mut elsewhere = args(&folder, text, "elsewhere");
     elsewhere.restart = Some(folder.join("cut.riprap"));
     assert!(go(&elsewhere).complete);
@@ -224,8 +224,8 @@ fn a_held_block_tells_its_buoyancy_and_feels_no_flow_where_there_is_none() {
     }
 }
 
-/// On the floor of the tank: its base is dry and the only face in a joint, and nothing drives it but its buoyancy, of
-/// which its weight is 2.65 times: about each edge of the base, too.
+/// On the floor of the tank the base is dry and the only face in a joint. The only load is buoyancy; the weight is 2.65
+/// times as much, also in moments about each edge of the base.
 #[test]
 fn a_block_tells_its_faces_and_how_safely_it_stands() {
     let folder = folder("coupled_faces");
@@ -271,7 +271,7 @@ fn a_block_tells_its_faces_and_how_safely_it_stands() {
     }
 }
 
-/// Loads on a block that never moves are read when somebody asks, and do not depend on when others asked.
+/// Loads on a block that never moves are read back on request, and do not depend on earlier requests.
 #[test]
 fn the_drag_of_a_held_block_is_that_of_the_last_steps() {
     let folder = folder("coupled_drag");
@@ -295,7 +295,7 @@ fn the_drag_of_a_held_block_is_that_of_the_last_steps() {
     assert_eq!(column(&often, "time").len(), 13);
 }
 
-/// A cube that a ram drives through water against another one, which has a wall behind it.
+/// A cube that a ram pushes through water against another one, which stands in front of a wall.
 #[test]
 fn a_crushed_block_names_the_last_checkpoint_and_loses_nothing() {
     let folder = folder("coupled_crush");
@@ -327,7 +327,7 @@ fn a_crushed_block_names_the_last_checkpoint_and_loses_nothing() {
         said(&program),
         &["overlap by", "--restart", &format!("step {step}")],
     );
-    // The state goes on from there.
+    // The run continues from the state.
     let rest = Args {
         restart: Some(checkpoint),
         steps: Some(step + 2),
@@ -362,7 +362,7 @@ fn shear_that_is_not_resolved_is_told_with_numbers() {
 
 #[test]
 fn check_says_what_blocks_in_a_fluid_will_run() {
-    // A second stone 1 mm, a fifth of a cell, beside the first.
+    // A second stone at a distance of 1 mm, a fifth of a cell, from the first.
     let text = CHANNEL.replace(
         "[[blocks]]\nname = \"ball\"",
         "[[blocks]]\nname = \"brick\"\nkind = \"box\"\nsize = [0.02, 0.04, 0.02]\n\

@@ -1,4 +1,4 @@
-//! `riprap run` on blocks that deform, dry and in a fluid: stresses in files and tables, restarts, refusals.
+//! `riprap run` on deformable blocks, dry and in a fluid: stresses in files and tables, restarts, refusals.
 
 use crate::fixture::{folder, last, restarted};
 use kit::{assert_contains, assert_relative};
@@ -164,7 +164,7 @@ fn a_cube_in_water_bears_its_weight_less_its_buoyancy() {
     let folder = folder("deformable_wet");
     restarted(&folder, WET, 5, &files);
     let out = folder.join("whole/cube.csv");
-    // (ρ − ρ_w) g h/2, from the points below: the water at rest adds nothing but rounding of its loads.
+    // (ρ − ρ_w) g h/2, from the sample points: the water at rest adds only rounding of its loads.
     let exact = -(2650.0 - 1000.0) * 9.81 * 0.04;
     let stress = last(&out, "stress_zz");
     assert_relative(stress, exact, 0.02);

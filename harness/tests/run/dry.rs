@@ -8,8 +8,7 @@ use kit::{assert_contains, assert_near};
 use riprap_harness::run::run;
 use std::{fs, sync::atomic::AtomicBool};
 
-/// Two cubes that lie on each other on a floor, a ball that falls on them, and a cube that is driven
-/// past them.
+/// Two stacked cubes on a floor, a ball that falls on them, and a cube that is driven past them.
 const PILE: &str = r#"
 title = "pile"
 [[materials]]
@@ -75,7 +74,7 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
     assert_eq!((rocks.blocks, rocks.awake), (5, 4));
     assert!(rocks.contacts >= 2);
     assert!(rocks.energy_error.abs() < 1e-2, "{}", rocks.energy_error);
-    // Damping only takes; what ended contacts held is a column of its own.
+    // Damping only dissipates; the energy that ended contacts held has its own column.
     let (history, ledger) = (out.join("history.csv"), rocks.ledger);
     let damping = ledger.dashpot + ledger.mass_damping + ledger.film;
     assert_eq!(last(&history, "damping_work"), damping);
@@ -97,7 +96,7 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
         (&cells[0]["faces"], &cells[0]["points"]),
         (&6.into(), &8.into())
     );
-    // VTK's volumes: two cubes, the ball between meridians (2 % short), the sledge, the floor.
+    // Volumes by VTK: two cubes, the ball as a mesh of meridians (2 % less), the sledge, the floor.
     for (cell, volume) in cells.iter().zip([1.0, 1.0, 0.1131 * 0.97, 0.125, 36.0]) {
         let found = cell["volume"].as_f64().unwrap();
         assert_near(found, volume, 0.02 * volume);
@@ -115,7 +114,7 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
     let floor = cells[4]["bounds"].as_array().unwrap();
     assert_eq!(floor[5].as_f64().unwrap(), 0.0);
 
-    // Each contact's force on its second block; all together hold the floor down.
+    // The force of each contact on its second block; their sum presses on the floor.
     let contacts = read_with_vtk(&out.join("contacts.pvd"));
     let count = contacts["points"].as_array().unwrap().len();
     assert_eq!(
@@ -191,7 +190,7 @@ fn a_stopped_run_of_blocks_leaves_its_state() {
     assert!(folder.join("out/blocks_000000.vtu").is_file());
 }
 
-/// A driven block that crushes another against a wall: the run ends, the last good state stays.
+/// A driven block that crushes another against a wall: the run ends and keeps the last good state.
 #[test]
 fn a_block_that_is_crushed_ends_the_run_with_names_and_a_state() {
     let folder = folder("dry_crush");

@@ -1,11 +1,11 @@
-//! `riprap run --error-estimate`: what it compares, and what it refuses.
+//! `riprap run --error-estimate`: its comparisons and refusals.
 
 use crate::fixture::{args, column, folder, go, json, last};
 use kit::{assert_contains, assert_near, scene::STILL_WATER};
 use riprap_harness::run::{Args, Estimate, Headline, run};
 use std::{path::Path, sync::atomic::AtomicBool};
 
-/// A channel that a force drives, in cells of 1/8 m: a parabola after some time.
+/// A channel driven by a force, with cells of 1/8 m: a parabolic profile after some time.
 const CHANNEL: &str = r#"
     [domain]
     size = [1, 1, 1]
@@ -70,7 +70,7 @@ fn refused(folder: &Path, text: &str) -> String {
     format!("{error:#}")
 }
 
-/// The coarse numbers are those of the scene with cells twice as wide, run by itself.
+/// The coarse numbers equal those of a separate run of the scene with cells twice as wide.
 #[test]
 fn a_flow_is_compared_with_cells_twice_as_wide() {
     let folder = folder("estimate_channel");
@@ -126,7 +126,7 @@ fn a_scene_without_measurements_says_so() {
     assert!(estimate.missing.unwrap().contains("[[probes]]"));
 }
 
-/// s = ½gt²(sin 30° − cos 30° tan 25°), exact at any step but for those of the contact.
+/// s = ½gt²(sin 30° − cos 30° tan 25°), exact at any step except those of the contact.
 #[test]
 fn dry_blocks_are_compared_with_steps_twice_as_long() {
     let text = include_str!("../../scenes/incline.toml");
@@ -145,7 +145,7 @@ fn water_is_compared_with_particles_twice_as_far_apart() {
     assert!(find(&estimate, "history", "mass").relative.unwrap() < 1e-6);
 }
 
-/// Steps of a scene divide the intervals of its outputs, at half the resolution into other numbers.
+/// The steps of a scene divide its output intervals; at half the resolution there are fewer of them.
 #[test]
 fn both_runs_of_water_end_together() {
     let folder = folder("estimate_end");
@@ -156,7 +156,7 @@ fn both_runs_of_water_end_together() {
     let estimate = estimated(&folder, &text);
     let end = |folder: &Path| last(&folder.join("history.csv"), "time");
     let ends = [&folder.join("out"), &estimate.folder].map(|folder| end(folder));
-    // Three steps an interval.
+    // Three steps per interval.
     assert_near(ends[0], 8.0 * 0.05 / 3.0, 1e-9);
     assert_near(ends[0], ends[1], 1e-9);
 }

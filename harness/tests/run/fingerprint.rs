@@ -1,5 +1,5 @@
-//! `riprap fingerprint` on two of its scenes: what it prints, that a second call gives the same, and what it reports
-//! where a record differs.
+//! `riprap fingerprint` on two of its scenes: its output, that a second call gives the same, and its report if a record
+//! differs.
 
 use crate::fixture::folder;
 use std::{

@@ -1,4 +1,4 @@
-//! What tests of `riprap run` share: a folder of their own, a scene in it, and reading what was written.
+//! Shared by tests of `riprap run`: a folder per test with a scene in it, and readers of the output.
 
 use kit::assert_contains;
 use riprap::{output::Table, scene::Kernels};
@@ -30,7 +30,7 @@ pub fn args(folder: &Path, text: &str, out: &str) -> Args {
     }
 }
 
-/// The scene with the kernels that `RIPRAP_KERNELS` names.
+/// The scene with the kernels given by `RIPRAP_KERNELS`.
 fn for_kernels(text: &str) -> String {
     let key = match kit::scene::kernels() {
         Kernels::Auto => return text.into(),
@@ -43,13 +43,13 @@ fn for_kernels(text: &str) -> String {
     text
 }
 
-/// The whole run.
+/// Runs to the end.
 pub fn go(args: &Args) -> Summary {
     run(args, &AtomicBool::new(false)).unwrap()
 }
 
-/// Runs the scene whole, into `whole`, and in two parts that are cut after `steps` steps, into `parts`; the named files
-/// are the same, bit for bit. The state of the cut is left in `cut.riprap`. Returns the summary of the whole.
+/// Runs the scene in one part, into `whole`, and in two parts that are cut after `steps` steps, into `parts`, and asserts
+/// that the named files are bitwise equal. The state at the cut is kept in `cut.riprap`. Returns the summary of the whole.
 pub fn restarted(folder: &Path, text: &str, steps: u64, files: &[&str]) -> Summary {
     let whole = go(&args(folder, text, "whole"));
     assert!(whole.complete, "{whole}");
@@ -67,7 +67,7 @@ pub fn restarted(folder: &Path, text: &str, steps: u64, files: &[&str]) -> Summa
     whole
 }
 
-/// Two runs have left the same bits.
+/// Asserts that the files of two runs are bitwise equal.
 pub fn assert_same_files(folder: &Path, runs: [&str; 2], files: &[&str]) {
     for file in files {
         let [one, two] = runs.map(|run| fs::read(folder.join(run).join(file)).unwrap());
@@ -91,7 +91,7 @@ pub fn json(path: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// What VTK finds in a `.vtu`, `.vtp` or `.pvd`.
+/// The content of a `.vtu`, `.vtp` or `.pvd` as read by VTK.
 pub fn read_with_vtk(path: &Path) -> Value {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/run/read_blocks.py");
@@ -108,18 +108,18 @@ pub fn read_with_vtk(path: &Path) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// The program with these arguments, in a folder.
+/// Runs the program with these arguments in a folder.
 pub fn riprap(folder: &Path, args: &[&str]) -> Output {
     let mut program = Command::new(env!("CARGO_BIN_EXE_riprap"));
     program.args(args).current_dir(folder).output().unwrap()
 }
 
-/// What the program has written to its error output.
+/// The error output of the program.
 pub fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// What `riprap check` says of a scene, as JSON and as text.
+/// The report of `riprap check` on a scene, as JSON and as text.
 pub fn check(folder: &Path, text: &str) -> (Value, String) {
     fs::write(folder.join("scene.toml"), text).unwrap();
     let json = riprap(folder, &["check", "scene.toml", "--json"]);
@@ -131,7 +131,7 @@ pub fn check(folder: &Path, text: &str) -> (Value, String) {
     )
 }
 
-/// Both `check` and `run` refuse a scene, with these words.
+/// Asserts that both `check` and `run` refuse a scene with these words.
 #[track_caller]
 pub fn assert_refused(name: &str, text: &str, words: &[&str]) {
     let folder = folder(name);

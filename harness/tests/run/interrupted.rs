@@ -1,5 +1,5 @@
-//! Runs that end in the middle: killed, or on a disk that is full. What is on disk leads on to the same bits. Runs that
-//! memory has no room for say so.
+//! Runs that end early: killed, or with a full disk. The files on disk continue to the same bits. Runs that do not fit in
+//! memory are refused with a message.
 
 use crate::fixture::{assert_same_files, folder, said};
 use kit::assert_contains;
@@ -12,7 +12,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A stone that a stream takes along.
+/// A stone carried along by a stream.
 const SCENE: &str = r#"
 [domain]
 size = [0.08, 0.04, 0.04]
@@ -48,7 +48,7 @@ quantities = ["kinetic_energy", "block_kinetic_energy"]
 every = 0.005
 "#;
 
-/// The program on the scene with so many steps, ready to be started.
+/// The program with the scene and this number of steps, not started yet.
 fn riprap(folder: &Path, steps: u64, out: &str) -> Command {
     let scene = folder.join("scene.toml");
     fs::write(&scene, SCENE.replace("STEPS", &steps.to_string())).unwrap();
@@ -61,7 +61,7 @@ fn riprap(folder: &Path, steps: u64, out: &str) -> Command {
 #[test]
 fn a_run_that_is_killed_goes_on_to_the_same_bits() {
     let folder = folder("killed");
-    // So many steps that it does not end by itself.
+    // Enough steps that it does not end by itself.
     let mut child = riprap(&folder, 1_000_000, "cut");
     let mut child = child
         .stdout(std::process::Stdio::null())
@@ -119,7 +119,7 @@ fn a_disk_that_fills_up_ends_a_run_with_the_file_and_the_last_good_state() {
         "--restart",
     ];
     assert_contains(text, &words);
-    // That state is whole, and with more space leads to the same end.
+    // That state is complete, and with more space leads to the same end.
     let state = folder.join("full/checkpoint.riprap");
     let _ = fs::remove_file(folder.join("full").join(format!("{last}.part")));
     let mut more = riprap(&folder, 60, "full");
@@ -129,8 +129,7 @@ fn a_disk_that_fills_up_ends_a_run_with_the_file_and_the_last_good_state() {
     assert_same_files(&folder, ["full", "good"], &["checkpoint.riprap", last]);
 }
 
-/// Lavapipe has the memory that the process may have: 1.8 GB do not hold 216³ cells of 108 bytes and what they start
-/// from.
+/// Lavapipe uses the memory of the process: 1.8 GB do not hold 216³ cells of 108 bytes and their initial state.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_run_without_memory_for_its_cells_says_how_much_they_take() {

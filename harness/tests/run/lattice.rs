@@ -1,4 +1,4 @@
-//! `riprap run` on small scenes: what it writes, and how it ends.
+//! `riprap run` on small lattice scenes: output and ends of runs.
 
 use crate::fixture::{args, column, folder, go, json, restarted, riprap, said};
 use kit::assert_contains;
@@ -12,8 +12,8 @@ fn header(path: &Path) -> String {
     text.lines().next().unwrap_or_default().to_owned()
 }
 
-/// A step in a channel with everything that a state consists of: an inlet that changes in time, an
-/// outlet that remembers, an eddy viscosity, a solid.
+/// A step in a channel with everything that belongs to a state: an unsteady inlet, an outlet with memory, an eddy
+/// viscosity, a solid.
 const STEP: &str = r#"
     [domain]
     size = [0.24, 0.12, 0.04]
@@ -68,7 +68,7 @@ const STEP: &str = r#"
     count = 5
 "#;
 
-/// A flow that a force drives beyond what the lattice carries.
+/// A flow driven by a force beyond the range of the lattice.
 const RUNAWAY: &str = r#"
     [domain]
     size = [0.08, 0.08, 0.08]
@@ -127,7 +127,7 @@ fn the_couette_scene_writes_what_it_asks_for() {
     let lattice = summary.lattice.unwrap();
     assert_eq!((lattice.fluid_cells, lattice.bytes_a_cell), (2048, 216));
     assert!(lattice.mlups > 0.0 && lattice.bandwidth_share > 0.0);
-    // The plate has Mach 0.1, the fluid beside it less.
+    // The plate has Mach 0.1, the fluid next to it less.
     let mach = lattice.max_mach;
     assert!((0.05..0.1).contains(&mach), "{mach}");
     let json = json(&out.join("summary.json"));
@@ -211,7 +211,7 @@ fn a_flow_that_diverges_unprepared_has_a_state_to_go_on_from() {
     let summary = go(&args);
     assert!(summary.diverged, "{summary}");
     let step = summary.checkpoint_step.unwrap();
-    // It does so in the first tenth of 400 steps, which has a checkpoint each 4.
+    // It diverges in the first tenth of 400 steps, which has a checkpoint every 4 steps.
     assert!(step > 0 && step.is_multiple_of(4) && summary.steps - step <= 4);
     let file = summary.checkpoint.clone().unwrap();
     let told = format!("--restart {}` goes on from step {step}", file.display());
@@ -303,7 +303,7 @@ fn multiples_of_an_interval_do_not_drift_and_the_last_step_counts() {
     assert!((0..=11).all(|step| dense.due(step)));
 }
 
-/// A law of the wall on the bed and on the step: its table, its surface and its line in the summary, over a restart too.
+/// A wall law on the bed and on the step: its table, its surface and its line in the summary, also over a restart.
 #[test]
 fn walls_with_a_wall_model() {
     let folder = folder("lattice_wall_model");
@@ -322,8 +322,8 @@ fn walls_with_a_wall_model() {
         &["walls.csv", "walls_000024.vtp", "fields_000024.vti"],
     );
     let walls = summary.wall_model.expect("the scene has a wall model");
-    // On the bed 22 × 4 faces lie off inlet and outlet, 6 of these rows beside the step or in it; two columns of the step's top
-    // have no edge, and its sides are too low.
+    // On the bed 22 × 4 faces lie away from inlet and outlet, 6 of these rows next to the step or in it; two columns of the
+    // step's top have no edge, and its sides are too low.
     assert!(walls.area_share > 0.5 && walls.area_share < 0.9, "{walls}");
     assert!(
         walls.y_plus_max > 50.0 && walls.stress_mean > 0.0,

@@ -1,4 +1,4 @@
-//! `riprap run` and the commands that run scenes: what they write, how they end, and what they refuse.
+//! `riprap run` and the commands that run scenes: output, ends of runs, and refusals.
 
 mod block_shapes;
 mod coupled;

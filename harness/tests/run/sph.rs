@@ -1,4 +1,4 @@
-//! Runs of free water: what they write, and whether it is what the water does.
+//! Runs of free water: their output, compared with the state of the water.
 
 use crate::fixture::{self, args, column, folder, go};
 use kit::{assert_contains, assert_near, assert_relative, scene::STILL_WATER};
@@ -82,14 +82,14 @@ fn still_water_is_measured_where_it_is() {
         let still = 1000.0 * 9.81 * (0.8 - z);
         assert!((pressure - still).abs() < 0.03 * bottom, "{z}: {pressure}");
     }
-    // Half of the particles, those of the upper layer with the least pressure.
+    // Half of the particles: the upper layers with the lowest pressure.
     assert_near(last(&out, "left.csv", "volume"), 0.48, 1e-9);
     let [mean, least, most] =
         ["mean", "min", "max"].map(|what| last(&out, "left.csv", &format!("pressure_{what}")));
     assert!((mean / bottom - 0.5).abs() < 0.03 && least < 0.15 * bottom && most > 0.85 * bottom);
     assert!(last(&out, "left.csv", "velocity_y_max").abs() < 1e-6);
     assert_near(last(&out, "history.csv", "mass"), 960.0, 1e-9);
-    // At rest, to what the start of a lattice beside walls leaves.
+    // At rest, apart from the initial particle lattice next to walls.
     assert!(last(&out, "history.csv", "kinetic_energy") < 1e-4 * 960.0 * 9.81 * 0.4);
     let cloud = fs::read(out.join("water_000000.vtp")).unwrap();
     let text = String::from_utf8_lossy(&cloud);
@@ -108,11 +108,11 @@ fn still_water_is_measured_where_it_is() {
         .filter(|p| p[2] > p[0].saturating_add(40));
     assert!(blue.count() > 1000);
     assert!(out.join("tank_strip.png").is_file() && out.join("water.pvd").is_file());
-    // One moment makes no curve.
+    // A single time makes no curve.
     assert!(!out.join("level.png").exists());
 }
 
-/// A probe that is always dry has nothing to show.
+/// A probe that is always dry has no curve.
 #[test]
 fn levels_and_run_up_are_drawn_over_time() {
     let folder = folder("water_curves");
@@ -158,7 +158,7 @@ fn levels_and_run_up_are_drawn_over_time() {
         assert!(summary.files.contains(&out.join(name)), "{name}");
     }
     assert!(!out.join("beyond.png").exists());
-    // As the scene's documentation says of dry gauges.
+    // As documented for dry gauges.
     let dry = fs::read_to_string(out.join("beyond.csv")).unwrap();
     assert!(dry.lines().count() > 5 && dry.lines().skip(1).all(|row| row.ends_with(",NaN")));
     let told = summary.warnings.join("\n");
@@ -170,7 +170,7 @@ fn a_restart_goes_on_to_the_same_bits() {
     let folder = folder("water_restart");
     let whole = args(&folder, &format!("{STILL_WATER}{MEASURED}"), "whole");
     let energies = go(&whole).water_energies.unwrap();
-    // At rest nothing works, to a thousandth of what its weight could do.
+    // At rest no work is done, to a thousandth of that which the weight could do.
     let scale = 1e-3 * 960.0 * 9.81 * 0.4;
     assert_eq!((energies.bodies, energies.left), (0.0, 0.0));
     assert!(energies.pressed.abs() < scale && energies.dissipated.abs() < scale);
@@ -188,7 +188,7 @@ fn a_restart_goes_on_to_the_same_bits() {
     assert_eq!(rest.water_energies, Some(energies));
     for file in ["water_000012.vtp", "bed.csv"] {
         let [a, b] = ["whole", "part"].map(|run| fs::read(folder.join(run).join(file)).unwrap());
-        // The table of the part has the row of its own end, too.
+        // The table of the part also has the row of its own end.
         let tail = |bytes: &[u8]| bytes[bytes.len() - 60..].to_vec();
         assert_eq!(tail(&a), tail(&b), "{file}");
     }
@@ -205,7 +205,7 @@ fn a_restart_goes_on_to_the_same_bits() {
 #[test]
 fn what_leaves_through_an_open_face_is_counted() {
     let folder = folder("water_open");
-    // A sheet that flies out at the side.
+    // A sheet of water that leaves at the side.
     let text = STILL_WATER
         .replace("x_max = { kind = \"wall\" }", "x_max = { kind = \"open\" }")
         .replace(
@@ -217,10 +217,10 @@ fn what_leaves_through_an_open_face_is_counted() {
     let summary = go(&args(&folder, &text, "out"));
     let pool = summary.pool.unwrap();
     assert_eq!(pool.particles, 32);
-    // It comes 0.8 m far, and all of it was within 0.6 m of the face.
+    // It travels 0.8 m, and all of it was within 0.6 m of the face.
     assert!(pool.escaped >= 30, "{}", pool.escaped);
     assert!(summary.to_string().contains("have left the domain"));
-    // 40 kg each that move at 10 m/s.
+    // 40 kg per particle, moving at 10 m/s.
     let taken = summary.water_energies.unwrap().left / (10.0 * f64::from(pool.escaped));
     assert_relative(taken, 0.5 * 100.0 + 9.81 * 0.4, 0.1);
 }
@@ -259,7 +259,7 @@ fn a_block_falls_into_water_and_its_books_close() {
     let out = folder.join("out");
     let rocks = summary.rocks.unwrap();
     assert_eq!(rocks.blocks, 1);
-    // What its loads took from the block it gave up; the water got it, but for a mean of two loads and the time between.
+    // The energy taken from the block by its loads equals that given to the water, but for averaging two loads over time.
     let energies = summary.water_energies.unwrap();
     let given = -rocks.ledger.loads;
     assert!(given > 100.0, "{given} J");
@@ -285,8 +285,8 @@ fn a_block_falls_into_water_and_its_books_close() {
     assert!(out.join("blocks.pvd").is_file());
 }
 
-/// A block that slides into water under its own weight, its joint with the slope open to the water at its foot and to the air
-/// at its heel: what blocks lose to water is what the water gains and dissipates, and nothing is made in the joint.
+/// A block that slides into water under its own weight, with the joint to the slope open to the water at its foot and to
+/// the air at its heel: the energy that blocks lose is gained and dissipated by the water, and none is created in the joint.
 #[test]
 fn energies_of_water_and_blocks_close_together() {
     let folder = folder("water_energies");
@@ -356,7 +356,7 @@ fn energies_of_water_and_blocks_close_together() {
     assert_near(kept, lost, 0.03 * lost);
 }
 
-/// It meets the water more often than sound alone would want, or each wave of its own would throw it farther.
+/// It exchanges with the water more often than the speed of sound requires, or its own waves would throw it up.
 #[test]
 fn a_block_of_cork_floats() {
     let folder = folder("water_cork");
@@ -388,7 +388,7 @@ fn a_block_of_cork_floats() {
     }
     let fastest = summary.rocks.unwrap().max_speed_seen;
     assert!(fastest < 0.8, "{fastest} m/s");
-    // Its draft is a fifth of a spacing, the surface within one.
+    // Its draft is a fifth of a spacing; the surface is known to one spacing.
     let height = last(&folder.join("out"), "path.csv", "position_z");
     assert_near(height, 0.88, 0.1);
 }
@@ -407,7 +407,7 @@ fn water_that_is_too_fast_or_lost_is_told() {
     let pool = summary.pool.unwrap();
     assert!(pool.max_mach > 0.2);
     assert!(told("water reached"), "{:?}", summary.warnings);
-    // It runs up the wall and out of the tank: one particle is more than a hundredth.
+    // The water runs up the wall and out of the tank: one particle is more than a hundredth.
     assert!(pool.escaped > 0);
     assert!(told("left the domain"), "{:?}", summary.warnings);
 }

@@ -1,11 +1,11 @@
-//! Statistics over time: tables beside those of probes, over restarts, and runs that end when means are known.
+//! Statistics over time: tables next to those of probes, also over restarts, and runs that end when means have converged.
 
 use crate::fixture::{args, column, folder, go, last, restarted, riprap, said};
 use kit::assert_contains;
 use riprap_harness::run::run;
 use std::{fs, sync::atomic::AtomicBool};
 
-/// A stream whose inlet swings with a period of 0.1 s past a fixed block; the time step is 1 ms.
+/// A stream past a fixed block with an inlet that oscillates with a period of 0.1 s; the time step is 1 ms.
 const SCENE: &str = r#"
     domain = { size = [0.16, 0.08, 0.08], cell = 0.01 }
     fluid = { viscosity = 1e-3, density = 1000 }
@@ -92,7 +92,7 @@ fn tables_of_means_spectra_and_correlations() {
     assert!((last(&table, "velocity_x_mean") - mean).abs() < 1e-12);
     assert!((mean - 0.5).abs() < 0.05, "{mean}");
     assert!((last(&table, "velocity_x_rms") - 0.2 / 2.0_f64.sqrt()).abs() < 0.02);
-    // Batches are shorter than the period: their means are much alike.
+    // Batches are shorter than the period, so that their means differ little.
     assert!((0.01..0.15).contains(&last(&table, "velocity_x_error")));
     // 10 Hz.
     let densities = column(&of("inflow_spectrum.csv"), "velocity_x");
@@ -103,7 +103,7 @@ fn tables_of_means_spectra_and_correlations() {
     let itself = column(&of("across_correlation.csv"), "velocity_x")[0];
     assert!((itself - 1.0).abs() < 1e-12, "{itself}");
     assert_eq!(column(&of("across_statistics.csv"), "s").len(), 8);
-    // A face that looks upstream: the number of its face is a coordinate.
+    // A face that looks upstream: its index is a coordinate.
     assert_eq!(
         column(&of("sill_faces_statistics.csv"), "face"),
         [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]
@@ -126,7 +126,7 @@ fn a_run_ends_when_its_means_are_known() {
     assert_contains(&summary, &["statistical error of means", "inflow.velocity"]);
     let converged = summary.statistics.unwrap();
     assert!(converged.reached && converged.error.unwrap() <= 0.2);
-    // What is written is whole.
+    // The output is complete.
     assert!(fs::read_dir(folder.join("out")).unwrap().count() > 10);
 
     args.until_error = Some("0.001".parse().unwrap());

@@ -1,12 +1,12 @@
-//! `riprap threshold` on scenes whose threshold is known, and what it refuses.
+//! `riprap threshold` on scenes with a known threshold, and its refusals.
 
 use crate::fixture::{folder, json, riprap, said};
 use kit::{assert_contains, assert_near};
 use riprap_harness::threshold::{Args, Report, run};
 use std::{fs, path::Path, sync::atomic::AtomicBool};
 
-/// A cube on a plane under gravity with a part along the plane: it slides once that is more than the
-/// friction of 30° holds, g tan 30° = 5.664 m/s².
+/// A cube on a plane under gravity with a component along the plane: it slides once that exceeds the friction of 30°,
+/// g tan 30° = 5.664 m/s².
 const SLIDE: &str = r#"
 [rock]
 gravity = [0, 0, -9.81]
@@ -35,7 +35,7 @@ motion = "fixed"
 duration = 0.2
 "#;
 
-/// A ball on the bed of a short channel that has a ridge behind it.
+/// A ball on the bed of a short channel, in front of a ridge.
 const PUSH: &str = r#"
 [domain]
 size = [0.16, 0.08, 0.08]
@@ -88,13 +88,13 @@ fn a_block_slides_where_its_friction_gives_way() {
     let report = go(&args);
     let [still, moves] = report.bracket.unwrap();
     assert!(report.complete && moves - still <= 0.1, "{report}");
-    // In 0.2 s an excess a leads ½ a t² away: a millimetre takes 0.05 m/s².
+    // In 0.2 s an excess a moves it ½ a t²: a millimetre takes 0.05 m/s².
     let slides = 9.81 * 30f64.to_radians().tan();
     assert!(still < slides + 0.06 && slides < moves, "{report}");
     assert_eq!(report.trials.len(), 8);
     let first = report.trials[1].moved.as_ref().unwrap();
     assert_eq!(first.block, "cube");
-    // From rest at 8 − 5.664 m/s²: a millimetre after √(2 · 0.001/2.336) s, in looks of a 200th of the run.
+    // From rest at 8 − 5.664 m/s²: a millimetre after √(2 · 0.001/2.336) s, checked every 200th of the run.
     assert_near(first.time, 0.02926, 0.0015);
     assert!(report.trials[0].moved.is_none());
     let table = fs::read_to_string(folder.join("out/threshold.csv")).unwrap();
@@ -124,8 +124,8 @@ fn a_criterion_of_speed_and_a_settled_start_give_the_same_threshold() {
 #[test]
 fn a_block_that_was_under_way_at_the_end_is_said() {
     let folder = folder("threshold_under_way");
-    // In 0.2 s an excess of 0.3 m/s² leads 6 mm away, a fifth of what counts, at a speed that covers 12 mm in as long:
-    // at 0.45 m/s² and more, 9 and 18 mm, another trial would see it.
+    // In 0.2 s an excess of 0.3 m/s² moves it 6 mm, a fifth of the criterion, and its speed covers 12 mm in the same time:
+    // at 0.45 m/s² and more, 9 and 18 mm, another trial would detect it.
     let args = Args {
         distance: Some(0.027),
         ..args(&folder, SLIDE, &["rock.gravity[0]"], [4.0, 8.0, 0.1])
@@ -138,7 +138,7 @@ fn a_block_that_was_under_way_at_the_end_is_said() {
     assert!(!report.trials[0].under_way && report.trials.iter().any(|trial| trial.under_way));
     let json = fs::read_to_string(folder.join("out/threshold.json")).unwrap();
     assert!(json.contains("\"warning\": \"at "), "{json}");
-    // With what it tells beside the bracket it holds the true one.
+    // Together with the value reported besides the bracket, it contains the true threshold.
     let slides = 9.81 * 30f64.to_radians().tan();
     let rest = report.rest.unwrap();
     assert!(rest <= slides && slides < still, "{rest}");
@@ -155,7 +155,7 @@ fn a_flow_that_is_fast_enough_moves_a_block() {
         ..args(&folder, PUSH, &[key], [0.0, 3.0, 1.6])
     };
     let report = go(&args);
-    // Under the mean loads of the trial at half of the fastest, in which it stood, or of none where the flow stood still.
+    // By the mean loads of the trial at half of the highest speed, in which the ball stood, or none if the flow was at rest.
     let still = report.trials.iter().filter(|trial| trial.moved.is_none());
     let found: Vec<_> = still.map(|trial| trial.equilibrium.as_ref()).collect();
     assert!(found[0].is_none(), "{report:?}");
@@ -184,7 +184,7 @@ fn a_formula_at_the_key_is_multiplied() {
     let report = go(&args(&folder, &text, &[key], [0.0, 30.0, 16.0]));
     assert!(report.complete, "{report}");
     let [still, moves] = report.bracket.unwrap();
-    // Factors of a profile of 0.1 m/s: 30 m/s would be refused.
+    // Factors of a profile of 0.1 m/s: a speed of 30 m/s would be refused.
     assert!(0.0 <= still && moves <= 30.0, "{report}");
     assert!(report.trials[1].moved.is_some() && report.trials[0].moved.is_none());
 }

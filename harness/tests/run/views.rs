@@ -1,9 +1,9 @@
-//! Views of runs: what they write, and what is in it.
+//! Views of runs: files and their content.
 
 use crate::fixture::{args, folder, go, restarted};
 use riprap_harness::render::Picture;
 
-/// Water that an inlet drives over a step, seen in space.
+/// Water driven over a step by an inlet, in a view.
 const STEP: &str = r#"
     title = "step"
     [domain]
@@ -35,7 +35,7 @@ fn coloured(picture: &Picture) -> usize {
         .rgba
         .chunks(4)
         .map(|p| [0, 1, 2].map(|channel| i32::from(p[channel])));
-    // Viridis runs from violet over green to yellow; sandstone and grey have red ≥ green ≥ blue.
+    // Viridis goes from violet over green to yellow; sandstone and grey have red ≥ green ≥ blue.
     pixels
         .filter(|[r, g, b]| *g > r + 20 || *b > g + 20)
         .count()
@@ -60,7 +60,7 @@ const VIEWS: &str = r#"
 fn a_view_of_a_flow_shows_slices_traces_and_solids_and_makes_strip_and_animation() {
     let folder = folder("views_step");
     let text = format!("{STEP}{VIEWS}");
-    // A run that is interrupted has the same pictures: nothing in them depends on where it began.
+    // A run that is interrupted has the same pictures: nothing in them depends on its first step.
     let pictures = ["both_000040.png", "bare_000040.png"];
     let summary = restarted(&folder, &text, 20, &pictures);
     assert!(summary.warnings.is_empty(), "{summary}");
@@ -82,7 +82,7 @@ fn a_view_of_a_flow_shows_slices_traces_and_solids_and_makes_strip_and_animation
         assert_eq!([picture.width, picture.height], [640, 400]);
         let found = coloured(&picture);
         assert!(found > 20_000, "{name}: {found} pixels");
-        // The step, and nothing else so large, has the grey of what is fixed.
+        // Only the step is that large and has the grey of fixed bodies.
         let grey = picture
             .rgba
             .chunks(4)
@@ -91,13 +91,13 @@ fn a_view_of_a_flow_shows_slices_traces_and_solids_and_makes_strip_and_animation
     }
 }
 
-/// Pixels whose colour is that of sandstone in any light.
+/// Pixels with the colour of sandstone in any light.
 fn sandstone(picture: &Picture) -> usize {
     let pixels = picture
         .rgba
         .chunks(4)
         .map(|p| [0, 1, 2].map(|channel| f64::from(p[channel])));
-    // Its channels have the ratios 205 : 190 : 165; grey and white have none, viridis other ones.
+    // Its channels have the ratios 205 : 190 : 165; grey and white do not, and viridis has others.
     pixels
         .filter(|[r, g, b]| {
             *r < 215.0 && (g / r - 0.92).abs() < 0.03 && (b / r - 0.80).abs() < 0.05

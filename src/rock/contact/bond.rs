@@ -1,53 +1,53 @@
-//! A bond between two faces that touch: the patch of contact, in the frames of both parts.
+//! A bond between two faces that touch: the contact patch, in the frames of both parts.
 
 use super::{Placed, thin_gap::face_pair};
 use glam::{DMat3, DVec2, DVec3};
 
-/// Gap up to which faces touch, as a share of the smaller part's radius: the rounding of scenes and poses.
+/// Largest gap between faces that touch, as a share of the smaller part's radius: the rounding of scenes and poses.
 const TOUCHING_GAP: f64 = 1e-9;
-/// Least area of a patch, as a share of the square of that radius: parts that touch with an edge alone have one of the
-/// width of rounding, over which nothing is bonded.
+/// Smallest area of a patch, as a share of the square of that radius. Parts that touch only along an edge have a patch
+/// of the width of rounding, which is not bonded.
 const SMALLEST_PATCH: f64 = 1e-6;
 
-/// The patch in which two faces touch, fixed in both parts; none where its area is 0. Vectors of a part are along
-/// the axes of its block's frame, before it deforms.
+/// The patch in which two faces touch, fixed in both parts; there is no bond if its area is 0. Vectors of a part are in
+/// the frame of its undeformed block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bond {
     /// m².
     pub area: f64,
-    /// Mean overlap, m; 0 where the faces touch within rounding.
+    /// Mean overlap, m; 0 if the faces touch within rounding.
     pub overlap: f64,
-    /// Centroid of the patch, from that of the first and of the second part, m.
+    /// Centroid of the patch, relative to the centroids of the first and the second part, m.
     pub arms: [DVec3; 2],
-    /// Unit normal from the first part to the second, as both carry it.
+    /// Unit normal from the first part to the second, in the frames of both.
     pub normals: [DVec3; 2],
-    /// First principal axis of the patch, as the first part carries it.
+    /// First principal axis of the patch, in the frame of the first part.
     pub axis: DVec3,
-    /// Least and largest distance of a corner from the centroid along the first and the second axis, m.
+    /// Smallest and largest coordinate of a corner along the first and the second axis, from the centroid, m.
     pub extents: [[f64; 2]; 2],
     /// ∫ x² dA along the first and the second axis, m⁴.
     pub seconds: [f64; 2],
 }
 
-/// A [`Bond`] at the present poses of its parts, vectors along the axes of the world.
+/// A [`Bond`] at the present poses of its parts. Vectors are in world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BondState {
     /// Half-way between the centroids of the patch, m.
     pub point: DVec3,
     /// Unit normal from the first part to the second.
     pub normal: DVec3,
-    /// Mean overlap; less than 0 where the bond is open, m.
+    /// Mean overlap, m; negative if the bond is open.
     pub overlap: f64,
     /// Principal axes of the patch.
     pub axes: [DVec3; 2],
-    /// Rotation of the second part against the first about each of the axes, rad.
+    /// Rotation of the second part relative to the first about each of the axes, rad.
     pub tilts: [f64; 2],
 }
 
 impl Bond {
-    /// The bond of two parts that touch or overlap, if they do so with faces that are parallel to 5°, and not along an
-    /// edge alone.
+    /// The bond of two parts that touch or overlap, if they do so with faces that are parallel within 5°, and not only
+    /// along an edge.
     pub fn between(first: &Placed, second: &Placed) -> Option<Self> {
         if first.is_sphere() || second.is_sphere() {
             return None;
@@ -73,7 +73,7 @@ impl Bond {
             })
         });
         let [own, other] = [first, second].map(|part| part.deformation.inverse());
-        // Planes go with F⁻ᵀ.
+        // Normals transform with F⁻ᵀ.
         let back = |part: &Placed| (part.deformation.transpose() * normal).normalize();
         Some(Self {
             area: seconds.area,
@@ -89,7 +89,7 @@ impl Bond {
         })
     }
 
-    /// Its state at the present poses of the parts.
+    /// State of the bond at the present poses of the parts.
     pub fn state(&self, first: &Placed, second: &Placed) -> BondState {
         let carried =
             |part: &Placed, normal: DVec3| (cofactor(part.deformation) * normal).normalize();
@@ -125,8 +125,8 @@ impl Bond {
 }
 
 impl BondState {
-    /// Overlap where the opening is the largest, m: u + θ₂ x₁ − θ₁ x₂ at the corners of the rectangle along the
-    /// axes that holds the patch.
+    /// Overlap at the point of largest opening, m: the minimum of u + θ₂ x₁ − θ₁ x₂ at the corners of the bounding
+    /// rectangle of the patch along the axes.
     pub fn smallest_overlap(&self, bond: &Bond) -> f64 {
         let smallest_overlap = |slope: f64, [low, high]: [f64; 2]| (slope * low).min(slope * high);
         self.overlap
@@ -134,8 +134,8 @@ impl BondState {
             + smallest_overlap(-self.tilts[0], bond.extents[1])
     }
 
-    /// Moment of bending alone: a bond has no spring in torsion, about its normal. That of the pressure u + θ₂ x₁ − θ₁ x₂ of an elastic bed (Winkler) on the second part about the point, over
-    /// its stiffness, m⁴: −(J₂ θ₁, J₁ θ₂), J the second moments.
+    /// Bending moment of the pressure u + θ₂ x₁ − θ₁ x₂ of an elastic bed (Winkler) on the second part about the point,
+    /// over its stiffness, m⁴: −(J₂ θ₁, J₁ θ₂), J the second moments. A bond has no torsional spring about its normal.
     pub fn moment(&self, bond: &Bond) -> DVec3 {
         let [first, second] = bond.seconds;
         -(self.axes[0] * (second * self.tilts[0]) + self.axes[1] * (first * self.tilts[1]))

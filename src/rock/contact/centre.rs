@@ -4,10 +4,10 @@
 use super::pair::Row;
 use glam::{DMat3, DVec3};
 
-/// Newton's method with slacks carried along, so that thin overlaps lose no digits to b − a · x.
+/// Newton's method with incremental updates of the slacks, so that thin overlaps lose no digits to b − a · x.
 #[derive(Default)]
 pub(super) struct Centring {
-    /// Normals in a frame whose z is the tightest row's.
+    /// Normals in a frame whose z axis is the normal of the tightest row.
     normals: Vec<DVec3>,
     /// Slacks, in L.
     pub slacks: Vec<f64>,
@@ -15,18 +15,18 @@ pub(super) struct Centring {
     rates: Vec<f64>,
 }
 
-/// λ² below which a step was the last one: the next would change slacks by less than 1e-10.
+/// λ² below which the iteration ends: another step would change slacks by less than 1e-10.
 const TOLERANCE: f64 = 1e-10;
 
-/// Where full steps converge quadratically (Boyd & Vandenberghe 2004, §9.6.4).
+/// λ below which full steps converge quadratically (Boyd & Vandenberghe 2004, §9.6.4).
 const FULL_STEP: f64 = 0.25;
 
-/// Far more than any pair needs; a bound for numbers that are not finite.
+/// Largest number of steps, far more than any pair needs: a bound for numbers that are not finite.
 const MAX_STEPS: u64 = 60;
 
 impl Centring {
-    /// Moves `point`, inside all rows moved out by `widening`, to their analytic centre; the slacks
-    /// there stay in `slacks`. Returns the number of steps.
+    /// Moves `point`, inside all rows moved out by `widening`, to their analytic centre, and leaves the slacks
+    /// there in `slacks`. Returns the number of steps.
     pub fn run(&mut self, rows: &[Row], widening: f64, point: &mut DVec3) -> u64 {
         self.slacks.clear();
         let slacks = rows
@@ -76,7 +76,7 @@ impl Centring {
         MAX_STEPS
     }
 
-    /// Newton's direction −H⁻¹g and its decrement λ² = gᵀH⁻¹g; none if H has no factors.
+    /// Newton's direction −H⁻¹g and its decrement λ² = gᵀH⁻¹g; `None` if H cannot be factorised.
     fn direction(&self) -> Option<(DVec3, f64)> {
         let mut g = DVec3::ZERO;
         let (mut xx, mut xy, mut xz, mut yy, mut yz, mut zz) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -94,7 +94,7 @@ impl Centring {
         let d = DVec3::new(xx, yy, zz).map(|h| h.sqrt().recip());
         let (xy, xz, yz) = (xy * d.x * d.y, xz * d.x * d.z, yz * d.y * d.z);
         let g = g * d;
-        // H = C Cᵀ from the stiff z up, so that its rounding does not reach x and y.
+        // Factorises H = C Cᵀ from the stiff z up, so that its rounding does not affect x and y.
         let czy = yz;
         let czx = xz;
         let cyy = (1.0 - czy * czy).sqrt();
@@ -111,7 +111,7 @@ impl Centring {
         decrement.is_finite().then_some((direction, decrement))
     }
 
-    /// The minimum of −Σ log(1 − s r_k) on 0 < s ≤ 0.99 of the way to the boundary, to a tenth.
+    /// The s that minimises −Σ log(1 − s r_k) for 0 < s ≤ 0.99 of the distance to the boundary, to within a tenth.
     fn line_search(&self) -> f64 {
         let fastest = self.rates.iter().copied().fold(0.0, f64::max);
         let end = if fastest > 0.0 {
@@ -154,13 +154,13 @@ impl Centring {
 }
 
 /// n = unit(Σ a_k/t_k) over the first `split` rows. At the analytic centre the sum over all rows is
-/// zero, so that the other block's is its opposite.
+/// zero, so that the normal of the other block is the opposite.
 ///
-/// The weights 1/t_k are a point of the linear program's central path, and n tends to the normal of its
-/// dual with the overlap. Where they differ, the program has left out a face that the barrier sees: at a
-/// distance δ from an edge, a contact of the overlap u is turned towards the edge by about u/δ, as it must
-/// be if the normal is not to jump there. Of random tetrahedra, cubes and hulls of twenty faces at u =
-/// 1e-4 L, half are turned by less than 0.02°, and one in a hundred by more than 1.6°: in units of
+/// The weights 1/t_k are a point on the central path of the linear program, and n tends to the normal of its
+/// dual as the overlap vanishes. They differ if the program leaves out a face that the barrier includes: at a
+/// distance δ from an edge, the normal at the overlap u is tilted towards the edge by about u/δ, which is
+/// necessary for a continuous normal. For random tetrahedra, cubes and hulls of twenty faces at u =
+/// 1e-4 L, half are tilted by less than 0.02°, and one in a hundred by more than 1.6°: in units of
 /// Σ_out (1/t) / |Σ_own a/t|, by 0.19 and 0.99, the same from u = 1e-3 L to 1e-6 L.
 pub(super) fn barrier(rows: &[Row], slacks: &[f64], split: usize) -> DVec3 {
     let own = rows[..split].iter().zip(slacks);
@@ -181,7 +181,8 @@ pub(super) fn potential(rows: &[Row], slacks: &[f64], split: usize, rounding: f6
     (gradient(0, split) - gradient(split, rows.len())).normalize_or_zero()
 }
 
-/// u_n: distance along ±n from the point to where it leaves both blocks.
+/// u_n: distance from the point along n to the surface of the first block, plus that along −n to the surface of the
+/// second.
 pub(super) fn overlap(rows: &[Row], slacks: &[f64], split: usize, normal: DVec3) -> f64 {
     let mut distances = [f64::INFINITY; 2];
     for (k, (row, slack)) in rows.iter().zip(slacks).enumerate() {

@@ -1,7 +1,7 @@
-//! Proofs in closed form: a plane with each block on its own side but for rounding, a face or a vertex of one block, and
+//! Proofs in closed form: a plane or a face that separates two blocks up to rounding, a point on the line of centres, and
 //! the contact of a sphere with a sphere or a polyhedron.
 //!
-//! Nearest point of a convex polyhedron (Goldfarb & Idnani 1983, dual active set, for the identity).
+//! Nearest point of a convex polyhedron (Goldfarb & Idnani 1983, dual active set, with the identity as Hessian).
 
 use super::{
     ContactGeometry, Placed, Verdict,
@@ -23,9 +23,9 @@ impl Placed {
 }
 
 impl Pair<'_> {
-    /// What the plane with the normal `n`, from the smaller to the larger block, proves: that the
-    /// blocks are apart by more than `margin` (in L), or that they overlap by less. `n` may have any
-    /// length; none proves nothing.
+    /// Verdict of the plane with the normal `n`, from the smaller to the larger block: the
+    /// blocks are apart by more than `margin` (in L), or overlap by no more. `n` may have any
+    /// length; a zero vector proves nothing.
     pub fn judge(&self, n: DVec3, margin: f64) -> Option<Verdict> {
         let length = n.length();
         if length == 0.0 {
@@ -36,13 +36,13 @@ impl Pair<'_> {
         proven(gap, margin * self.length * length)
     }
 
-    /// A face of one block that has all of the other outside, but for `margin` (in L): its normal from
+    /// Normal of a face of one block that has the whole other block outside, up to `margin` (in L). It points from
     /// the smaller to the larger block.
     pub fn separating_face(&self, margin: f64) -> Option<DVec3> {
         let margin = margin * self.length;
         let clear = |face: &HalfSpace, shift: DVec3, vertices: &[DVec3]| {
             let height = face.normal.dot(shift) - face.distance + margin;
-            // A face that looks away from the other block's centroid cannot keep it off.
+            // A face that points away from the other block's centroid cannot separate the blocks.
             height > 0.0 && vertices.iter().all(|v| face.normal.dot(*v) >= -height)
         };
         let (small, large) = (self.small, self.large);
@@ -54,7 +54,7 @@ impl Pair<'_> {
         found.or_else(|| other.next().map(|f| -f.normal))
     }
 
-    /// A point of the line of centres that is inside all `rows`, in L, if there is one.
+    /// A point on the line of centres, in L, which is inside all `rows` if any point of the line is.
     pub fn point_between(&self, rows: &[Row], split: usize) -> DVec3 {
         let line = self.shift / self.length;
         let (own, other) = rows.split_at(split);
@@ -79,7 +79,7 @@ impl Pair<'_> {
     }
 }
 
-/// What a plane with the gap `gap` proves, if rounding is `margin`.
+/// Verdict of a plane with the gap `gap` at a rounding of `margin`; `None` if it proves nothing.
 pub(super) fn proven(gap: f64, margin: f64) -> Option<Verdict> {
     if gap > margin {
         Some(Verdict::Apart)
@@ -96,18 +96,18 @@ pub(super) fn smallest_slack(rows: &[Row], x: DVec3) -> f64 {
     slacks.fold(f64::INFINITY, f64::min)
 }
 
-/// Gap (m, negative: overlap) and contact of a sphere with another block, from the block to it.
+/// Gap (m, negative: overlap) and contact of a sphere with another block. The normal points to the sphere.
 pub(super) struct Proximity {
     pub gap: f64,
     pub contact: ContactGeometry,
 }
 
-/// Two spheres: the section is the circle in which they meet, the common face of the lens.
+/// Two spheres: the section is the circle in which their surfaces intersect.
 pub(super) fn sphere_sphere(a: &Placed, b: &Placed) -> Proximity {
     let between = b.centre - a.centre;
     let distance = between.length();
     let normal = (between / distance).normalize_or(DVec3::X);
-    // From the first centre to the circle; beyond a centre the whole sphere is in the other.
+    // Distance from the first centre to the circle. If it lies beyond a centre, the smaller sphere counts as a whole.
     let (r, q) = (a.radius, b.radius);
     let plane = (distance * distance + (r - q) * (r + q)) / (2.0 * distance);
     let circle = if plane > 0.0 && plane < distance {
@@ -124,15 +124,15 @@ pub(super) fn sphere_sphere(a: &Placed, b: &Placed) -> Proximity {
 }
 
 /// A polyhedron and a sphere: the section is the sphere's circle in the plane through the
-/// polyhedron's nearest point, across the normal. On a face that is the circle that the face cuts
-/// out of the sphere; the face's edges do not cut it, so that area and force are continuous while
-/// the sphere rolls over them.
+/// polyhedron's nearest point, perpendicular to the normal. On a face this is the circle in which the plane
+/// of the face cuts the sphere; the edges of the face do not clip it, so that area and force are continuous
+/// while the sphere rolls over them.
 pub(super) fn sphere_polyhedron(block: &Placed, sphere: &Placed) -> Proximity {
     let centre = sphere.centre - block.centre;
     let height = |k: usize| block.faces[k].normal.dot(centre) - block.faces[k].distance;
     let top =
         (0..block.faces.len()).fold(0, |best, k| if height(k) > height(best) { k } else { best });
-    // The top face's plane, moved to the centre, has all of the block below it.
+    // The whole block lies below the plane of the top face, moved to the centre.
     let depth = height(top);
     let tolerance = 4.0 * f64::EPSILON * (block.radius + centre.length());
     let face = block.faces[top].normal;
@@ -152,7 +152,7 @@ pub(super) fn sphere_polyhedron(block: &Placed, sphere: &Placed) -> Proximity {
     }
 }
 
-/// A contact over a circle of the squared radius `square` (m²).
+/// A contact over a circle with the squared radius `square` (m²).
 fn round(point: DVec3, normal: DVec3, overlap: f64, square: f64) -> ContactGeometry {
     ContactGeometry {
         point,
@@ -165,14 +165,14 @@ fn round(point: DVec3, normal: DVec3, overlap: f64, square: f64) -> ContactGeome
     }
 }
 
-/// Each pass adds a face or drops one and the distance grows, so that no set of faces comes twice;
-/// passes beyond this are rounding.
+/// Each pass adds or drops a face and the distance grows, so that no set of faces repeats. More passes than this
+/// are due to rounding.
 const MAX_PASSES: usize = 200;
 
-/// Square of the sine of the angle below which a face is held by the others already.
+/// Squared sine of the angle below which the normal of a face depends linearly on those of the active faces.
 const PARALLEL: f64 = 1e-14;
 
-/// Faces that hold the point: on a face, an edge, or a corner.
+/// Active faces, on which the point lies: a face, an edge, or a corner.
 #[derive(Default)]
 struct ActiveSet {
     faces: [usize; 3],
@@ -184,7 +184,7 @@ struct ActiveSet {
 pub(super) fn nearest(faces: &[HalfSpace], from: DVec3, tolerance: f64) -> DVec3 {
     let mut x = from;
     let mut active = ActiveSet::default();
-    // The face that is violated most, and its multiplier, until it is held.
+    // The face that is violated most, and its multiplier, until it is active.
     let mut entering: Option<(usize, f64)> = None;
     for _ in 0..MAX_PASSES {
         let violation = |k: usize| faces[k].normal.dot(x) - faces[k].distance;
@@ -234,7 +234,7 @@ pub(super) fn nearest(faces: &[HalfSpace], from: DVec3, tolerance: f64) -> DVec3
 }
 
 impl ActiveSet {
-    /// Shares s of the held normals with Σ s n nearest to `target`.
+    /// Coefficients s of the active normals with Σ s n nearest to `target`.
     fn shares(&self, faces: &[HalfSpace], target: DVec3) -> [f64; 3] {
         let normal = |i: usize| (i < self.count).then(|| faces[self.faces[i]].normal);
         let dot = |i: usize, j: usize| match (normal(i), normal(j)) {
@@ -254,7 +254,7 @@ impl ActiveSet {
         terms.map(|(k, share)| faces[*k].normal * share).sum()
     }
 
-    /// How far the multipliers can go before one is zero, and which.
+    /// Step at which the first multiplier becomes zero, and its index.
     fn first_released(&self, shares: [f64; 3]) -> (f64, usize) {
         (0..self.count).fold((f64::INFINITY, 0), |best, i| {
             let step_to_release = self.multipliers[i] / shares[i];

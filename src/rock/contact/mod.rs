@@ -1,13 +1,13 @@
 //! Contact of convex blocks by linear programming (Boon, Houlsby & Utili 2012).
 //!
-//! A [`Resolver`] decides of two [`Placed`] blocks whether they overlap, and where, along which
-//! normal, how deep and over which area. Nothing is decided by the sign of a rounded number: a
-//! plane that keeps all vertices apart proves that there is no contact, a point inside all faces
-//! proves that there is one, and a pair of which neither can be shown is [`Verdict::Undecided`].
+//! A [`Resolver`] determines whether two [`Placed`] blocks overlap, and the point, normal, depth and
+//! area of their contact. No decision depends on the sign of a rounded number: a
+//! plane that separates all vertices proves that there is no contact, a point inside all faces
+//! proves that there is one, and a pair with neither proof is [`Verdict::Undecided`].
 //!
-//! Proofs are tried from the cheapest to the dearest: bounding spheres; the plane or the point kept in the
+//! Proofs are tried in the order of their cost: bounding spheres; the plane or the point in the
 //! [`Cache`] of the pair; faces, the line of centres and the surroundings of the last point; the
-//! linear program. Then the analytic centre, the normal, and the section of the overlap.
+//! linear program. The analytic centre, the normal, and the section of the overlap follow.
 //!
 //! ```
 //! use glam::{DQuat, DVec3};

@@ -16,8 +16,8 @@ pub(super) struct Row {
     pub offset: f64,
 }
 
-/// Ratio of sizes from which on faces are left out. Below it few would go, and a pair of equal blocks,
-/// whose order rounding decides, must not depend on it.
+/// Size ratio from which distant faces are left out. Below it few faces would be left out, and the result for blocks
+/// of equal size, whose order depends on rounding, must not depend on that order.
 const LARGER: f64 = 3.0;
 
 /// Two blocks, ordered by size.
@@ -25,7 +25,7 @@ const LARGER: f64 = 3.0;
 pub(super) struct Pair<'a> {
     pub small: &'a Placed,
     pub large: &'a Placed,
-    /// Whether the smaller one is the second argument.
+    /// Whether the smaller block is the second argument.
     pub flipped: bool,
     /// From the smaller block's centroid to the larger one's, m.
     pub shift: DVec3,
@@ -50,13 +50,13 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Fills `rows`, the smaller block's first; returns how many are the smaller block's.
+    /// Fills `rows`, those of the smaller block first; returns the number of these.
     ///
-    /// Of a much larger block only the faces that come within twice the smaller block's bounding
-    /// sphere are kept. A plane outside the sphere cuts nothing off the smaller block, so the overlap
-    /// is exactly the same, and so is the verdict. The analytic centre is that of the faces
-    /// kept: the factor of two keeps a face that comes or goes at least a radius from the overlap, where
-    /// its 1/t is small against that of the faces that bound the overlap.
+    /// Of a much larger block, only the faces that come within twice the smaller block's bounding
+    /// sphere are kept. A plane outside the sphere does not cut the smaller block, so that the overlap
+    /// and the verdict are exactly the same. The analytic centre is that of the kept
+    /// faces: with the factor of two, a face is added or dropped at least a radius from the overlap, where
+    /// its 1/t is small compared with that of the faces that bound the overlap.
     pub fn fill(&self, rows: &mut Vec<Row>) -> usize {
         let scale = self.length.recip();
         rows.clear();
@@ -81,8 +81,8 @@ impl<'a> Pair<'a> {
         self.small.faces.len()
     }
 
-    /// What rounding may do to a slack or a gap, in L: some units in the last place of the longest
-    /// vector that enters it, the blocks' places included.
+    /// Bound of the rounding error of a slack or a gap, in L: some units in the last place of the longest
+    /// vector that enters it, including the positions of the blocks.
     pub fn rounding(&self) -> f64 {
         let place = self.small.centre.abs().max(self.large.centre.abs());
         let longest = self.length + self.large.radius + place.max_element();
@@ -90,8 +90,8 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// By size, then by place: a rule that sees the blocks and not the order in which they are named.
-/// Only two blocks with the same sizes at the same place are left to the order of the arguments.
+/// Orders two blocks by size, then by position, independently of the order of the arguments. Only
+/// two blocks with the same sizes at the same position keep the order of the arguments.
 fn order(a: &Placed, b: &Placed) -> Ordering {
     let place = |p: &Placed| p.centre.to_array();
     let key = |p: &Placed| (p.radius, p.smallest_distance);
@@ -102,25 +102,25 @@ fn order(a: &Placed, b: &Placed) -> Ordering {
         .then(place(a).partial_cmp(&place(b)).unwrap_or(Ordering::Equal))
 }
 
-/// The last separating plane and the last point of contact of a pair, in the frame of one of its
-/// blocks. Both are hints: they are tested before they are believed, so a cache that is old, or
-/// belongs to another pair, costs time and changes no verdict. Plain data, for checkpoints.
+/// The last separating plane and the last contact point of a pair, in the frame of one of its
+/// blocks. Both are hints that are verified before use: an outdated cache, or one of another pair,
+/// costs time and changes no verdict. Plain data, for checkpoints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cache {
-    /// Normal of the plane, away from the block that holds it; zero: none.
+    /// Normal of the plane, pointing away from the block in whose frame it is; zero if there is none.
     pub plane: [f64; 3],
-    /// Point of contact from the centroid, m; zero: none.
+    /// Contact point relative to the centroid of that block, m; zero if there is none.
     pub point: [f64; 3],
-    /// Whether the pair was in contact when last seen, and the point is worth a try.
+    /// Whether the pair was in contact when last resolved, so that the point is tried first.
     pub contact: bool,
-    /// Whether the frame is that of the second block. It is that of the smaller one, so that a pair
-    /// in the other order remembers the same numbers.
+    /// Whether the frame is that of the second block. It is that of the smaller block, so that the
+    /// numbers do not depend on the order of the pair.
     pub second: bool,
 }
 
 impl Cache {
-    /// The plane's normal from the smaller to the larger block, in the world.
+    /// The plane's normal from the smaller to the larger block, in world axes.
     pub(super) fn normal(&self, pair: &Pair<'_>) -> DVec3 {
         let n = DVec3::from_array(self.plane);
         if self.second == pair.flipped {
@@ -142,7 +142,7 @@ impl Cache {
         }
     }
 
-    /// Keeps a plane's normal, from the smaller to the larger block, and a point (m from the smaller
+    /// Stores a plane's normal, from the smaller to the larger block, and a point (m from the smaller
     /// block's centroid).
     pub(super) fn hold(&mut self, pair: &Pair<'_>, normal: DVec3, point: Option<DVec3>) {
         let inverse = pair.small.deformation.inverse();

@@ -1,16 +1,16 @@
-//! A convex polygon in a plane, cut by lines.
+//! A convex polygon in a plane, clipped by lines.
 
 use super::section::Bound;
 use glam::DVec2;
 
-/// Corners in order. Lengths in L, the origin inside.
+/// Corners in order. Lengths are in L; the origin is inside.
 #[derive(Default)]
 pub(super) struct Polygon {
     pub corners: Vec<DVec2>,
     spare: Vec<DVec2>,
 }
 
-/// Polygons that a section needs, used again and again.
+/// Polygons for the computation of sections, reused to save allocations.
 #[derive(Default)]
 pub(super) struct Polygons {
     pub section: Polygon,
@@ -18,7 +18,7 @@ pub(super) struct Polygons {
     pub bounds: Vec<Bound>,
 }
 
-/// Integrals over a polygon of a thickness that is linear between corners and their mean.
+/// Integrals over a polygon of a thickness u that is linear between the corners and their mean.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moments {
     /// ∫ dA.
@@ -29,14 +29,14 @@ pub(super) struct Moments {
     pub first: DVec2,
 }
 
-/// How an area is spread about its centroid.
+/// Second moments of an area about its centroid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SecondMoments {
     pub area: f64,
     pub centre: DVec2,
-    /// Largest and least ∫ x² dA.
+    /// Largest and smallest ∫ x² dA.
     pub principal: [f64; 2],
-    /// Along which it is the largest.
+    /// Axis along which it is the largest.
     pub axis: DVec2,
 }
 
@@ -78,7 +78,7 @@ impl Polygon {
         std::mem::swap(&mut self.corners, &mut self.spare);
     }
 
-    /// Moments of the thickness `u`, exact where it is linear.
+    /// Moments of the thickness `u`, exact if it is linear.
     pub fn moments(&self, u: impl Fn(DVec2) -> f64) -> Moments {
         let mut sums = Moments::default();
         let Some(last) = self.corners.last() else {
@@ -101,7 +101,7 @@ impl Polygon {
         sums
     }
 
-    /// Area, centroid and second moments about it; none of what has no area.
+    /// Area, centroid and second moments about it; `None` if the area is zero.
     pub fn second_moments(&self) -> Option<SecondMoments> {
         let last = self.corners.last()?;
         let mean = self.corners.iter().sum::<DVec2>() / self.corners.len() as f64;
@@ -139,7 +139,7 @@ impl Polygon {
         })
     }
 
-    /// Largest distance of two corners.
+    /// Largest distance between two corners.
     pub fn width(&self) -> f64 {
         let mut square: f64 = 0.0;
         for (k, p) in self.corners.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! The linear program of Boon, Houlsby & Utili 2012, eq. 12: min s, a_k · x − s ≤ b_k, by clarabel.
 //!
-//! Its answer decides nothing; it gives a point and a plane to be tested.
+//! Its solution is no proof; it provides a point and a plane to be tested.
 
 use super::pair::Row;
 use crate::{Error, Result};
@@ -10,7 +10,7 @@ use clarabel::{
 };
 use glam::DVec3;
 
-/// Solvers by number of rows, each built once and given new numbers from then on.
+/// Solvers by number of rows, each built once and updated for every problem.
 #[derive(Default)]
 pub(super) struct Program {
     solvers: Vec<Option<Box<DefaultSolver<f64>>>>,
@@ -18,7 +18,7 @@ pub(super) struct Program {
     bounds: Vec<f64>,
 }
 
-/// Answer to the program.
+/// Solution of the program.
 pub(super) struct Optimum<'a> {
     /// The point with the largest smallest slack, in L.
     pub point: DVec3,
@@ -26,11 +26,11 @@ pub(super) struct Optimum<'a> {
     pub dual: &'a [f64],
 }
 
-/// Unit of length of the second look, in L. clarabel's answers are good to 1e-10 L, and overlaps of
-/// 1e-9 L may hold balls of no more than that.
+/// Unit of length of the second solution, in L. clarabel is accurate to 1e-10 L, and the largest sphere in an
+/// overlap of 1e-9 L may be no larger than that.
 const MAGNIFIED: f64 = 1e-6;
 
-/// How far the second look goes, in its own unit.
+/// Extent of the second program, in its own unit.
 const HORIZON: f64 = 10.0;
 
 impl Program {
@@ -40,8 +40,8 @@ impl Program {
         self.look(rows, DVec3::ZERO, 1.0, f64::INFINITY)
     }
 
-    /// Solves the program once more around `point`, enlarged, for a pair that the first answer leaves
-    /// open. Rows beyond the horizon are moved onto it, which only makes the overlap smaller.
+    /// Solves the program again, magnified about `point`, for a pair that the first solution leaves
+    /// undecided. Rows beyond the horizon are moved onto it, which can only shrink the overlap.
     ///
     /// # Errors
     /// If clarabel refuses the problem.
@@ -87,18 +87,18 @@ impl Optimum<'_> {
     }
 }
 
-/// A solver for `count` rows, with numbers that stand in until the first update: every problem then
-/// is loaded by the same update, and its answer depends on nothing solved before.
+/// A solver for `count` rows with placeholder values: every problem is loaded by the same update,
+/// so that its solution does not depend on earlier problems.
 fn solver(count: usize) -> Result<DefaultSolver<f64>, clarabel::solver::SolverError> {
     let settings = DefaultSettings {
         verbose: false,
         tol_gap_abs: 1e-12,
         tol_gap_rel: 1e-12,
         tol_feas: 1e-12,
-        // Both would forbid new numbers.
+        // Both would prevent updates.
         presolve_enable: false,
         input_sparse_dropzeros: false,
-        // The rows have unit normals already. Scales found for the first problem would stay for all
+        // The rows already have unit normals. Scales of the first problem would be kept for all
         // later ones and make them depend on it.
         equilibrate_enable: false,
         direct_solve_method: "qdldl".into(),

@@ -1,4 +1,4 @@
-//! Resolution of a pair: bounding spheres, cache, proof of contact or of none, and what the contact is like.
+//! Resolution of a pair: bounding spheres, cache, proof of contact or separation, and the contact geometry.
 
 use super::{
     Cache, Placed,
@@ -13,11 +13,11 @@ use crate::{Error, Result};
 use glam::DVec3;
 use std::ops::AddAssign;
 
-/// Share of the smallest distance of a face from its centroid beyond which an overlap is deep.
+/// Share of the smallest centroid-to-face distance beyond which an overlap is deep.
 const DEEP: f64 = 0.1;
 
-/// Resolves pairs one after the other: one a thread. It holds solvers and scratch space, so that
-/// nothing is allocated once all kinds of pairs have been seen; its answers depend on nothing that
+/// Resolves pairs one after the other; each thread needs its own. It holds solvers and scratch space, so that
+/// nothing is allocated once all kinds of pairs have occurred. Its results do not depend on the pairs that
 /// it resolved before.
 #[derive(Default)]
 pub struct Resolver {
@@ -30,7 +30,7 @@ pub struct Resolver {
 }
 
 impl Resolver {
-    /// A resolver without history.
+    /// A new resolver.
     pub fn new(options: Options) -> Self {
         Self {
             options,
@@ -38,15 +38,15 @@ impl Resolver {
         }
     }
 
-    /// How the pairs so far were decided.
+    /// Counters of the pairs resolved so far.
     pub fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// Whether `first` and `second` are in contact, and how. `cache` is the pair's own; what it
-    /// holds changes the time and, within rounding, nothing else. The same pair in the other order
-    /// gives the opposite normal and otherwise the same bits: inside, the pair is ordered by size,
-    /// then by place.
+    /// Determines whether `first` and `second` are in contact, and the contact geometry. `cache` belongs to the
+    /// pair; its content affects the run time and, apart from rounding, nothing else. The same pair in the other
+    /// order gives the opposite normal and otherwise the same bits: internally the pair is ordered by size,
+    /// then by position.
     ///
     /// # Errors
     /// If a pose is not finite.
@@ -61,7 +61,7 @@ impl Resolver {
         check(first, square)?;
         check(second, square)?;
         let reach = first.radius + second.radius;
-        // Rounding of the square is far below this margin; closer pairs are looked at properly.
+        // Rounding of the square is far below this margin; closer pairs are resolved in full.
         if square > reach * reach * (1.0 + 1e-12) {
             self.counts.bounds += 1;
             cache.contact = false;
@@ -100,7 +100,7 @@ impl Resolver {
     fn polyhedra(&mut self, pair: &Pair<'_>, cache: &mut Cache) -> Result<Verdict> {
         let margin = pair.rounding();
         let plane = cache.normal(pair);
-        // The likelier proof first.
+        // The more likely proof is tried first.
         if !cache.contact
             && let Some(verdict) = pair.judge(plane, margin)
         {
@@ -138,7 +138,7 @@ impl Resolver {
         })
     }
 
-    /// The contact around `start`, a point inside both (in L); its normal goes from the smaller to
+    /// The contact around `start`, a point inside both blocks (in L). Its normal points from the smaller to
     /// the larger block.
     fn describe(&mut self, pair: &Pair<'_>, split: usize, start: DVec3) -> ContactGeometry {
         let mut point = start;
@@ -175,7 +175,7 @@ impl Resolver {
         }
     }
 
-    /// Proof where the cache has none; `near`: the cached point, outside.
+    /// Finds a proof if the cache has none. `near`: the cached point, which is outside.
     fn prove(
         &mut self,
         pair: &Pair<'_>,
@@ -223,9 +223,9 @@ impl Resolver {
         Ok(test(&self.program.magnify(rows, point)?))
     }
 
-    /// Proof from a point just outside (method of centres, Huard 1967): all faces are moved out until
-    /// the point is inside; the analytic centre of what they enclose is then deeper, inside the blocks
-    /// themselves, or its normal keeps them apart.
+    /// Finds a proof from a point just outside (method of centres, Huard 1967): all faces are moved outwards until
+    /// the point is inside. The analytic centre of the enclosed region is then deeper: it is inside the blocks
+    /// themselves, or its normal separates them.
     fn widen(&mut self, pair: &Pair<'_>, split: usize, margin: f64, near: DVec3) -> Proof {
         let mut point = near;
         for _ in 0..WIDENINGS {
@@ -247,7 +247,7 @@ impl Resolver {
     }
 }
 
-/// A pair with a sphere, in closed form.
+/// Resolves a pair with a sphere, in closed form.
 fn round(pair: &Pair<'_>, cache: &mut Cache) -> Verdict {
     let margin = pair.rounding();
     let plane = cache.normal(pair);
@@ -274,7 +274,7 @@ fn round(pair: &Pair<'_>, cache: &mut Cache) -> Verdict {
     })
 }
 
-/// That a block has a size and a place.
+/// Checks that a block has a positive size and a finite position.
 fn check(block: &Placed, square: f64) -> Result<()> {
     let sizes = block.radius * block.smallest_distance;
     if square.is_finite() && sizes.is_finite() && sizes > 0.0 {
@@ -289,10 +289,10 @@ fn check(block: &Placed, square: f64) -> Result<()> {
     ))
 }
 
-/// Choices of a [`Resolver`](super::Resolver).
+/// Options of a [`Resolver`](super::Resolver).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Which normal a contact gets.
+    /// Definition of the contact normal.
     pub normal: Normal,
 }
 
@@ -300,26 +300,26 @@ pub struct Options {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Normal {
     /// Σ a/t over one block's faces at the analytic centre, t their slacks: equal and opposite for
-    /// both blocks, without a parameter; the face's own normal where faces lie flat on each other.
+    /// both blocks, without a parameter; the normal of the faces if they lie flat on each other.
     #[default]
     Barrier,
-    /// Gradient of Boon's potential particle, Σ ⟨a·x − d + r⟩² − r², the mean of both blocks', with
+    /// Gradient of Boon's potential particle, Σ ⟨a·x − d + r⟩² − r², averaged over both blocks, with
     /// r = max(2 u_n, d_min/100): at r = d_min/2, as often used, face contacts tilt by up to 10°.
     Potential,
 }
 
-/// Numbers of pairs by what decided them, and of the work done.
+/// Numbers of pairs by the proof that decided them, and amounts of work.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Pairs seen.
+    /// Pairs resolved.
     pub pairs: u64,
-    /// Apart by their bounding spheres.
+    /// Pairs separated by their bounding spheres.
     pub bounds: u64,
-    /// Apart by the cached plane.
+    /// Pairs decided by the cached plane.
     pub planes: u64,
-    /// In contact by the cached point.
+    /// Pairs in contact by the cached point.
     pub points: u64,
-    /// Decided by a face, or by the line of centres.
+    /// Pairs decided by a face, the line of centres, or the surroundings of the cached point.
     pub guesses: u64,
     /// Linear programs solved.
     pub programs: u64,
@@ -345,45 +345,45 @@ impl AddAssign for Counts {
     }
 }
 
-/// How often a pair whose cached point is outside has its faces moved out, and from which violation
-/// on (in L) it is not worth it: each time costs 1 µs and brings the point in by a share, against
+/// How often the faces of a pair whose cached point is outside are moved outwards, and the violation (in L)
+/// from which this is not tried: each time costs 1 µs and moves the point inwards by a share, compared with
 /// 50 µs for the linear program.
 const WIDENINGS: usize = 4;
 const LARGEST_WIDENING: f64 = 0.01;
 
-/// What was found of a pair.
+/// Proof found for a pair.
 enum Proof {
-    /// A plane, its normal from the smaller to the larger block, and what it proves.
+    /// A plane, its normal from the smaller to the larger block, and its verdict.
     Plane(DVec3, Verdict),
-    /// A point inside both, in L.
+    /// A point inside both blocks, in L.
     Point(DVec3),
     Neither,
 }
 
-/// A contact, vectors along the world's axes.
+/// Geometry of a contact. Vectors are in world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactGeometry {
     /// A point deep inside the overlap, its analytic centre, m.
     pub point: DVec3,
     /// Unit normal from the first block to the second.
     pub normal: DVec3,
-    /// Overlap u_n along the normal, m. In a face contact its mean over the section, so that
+    /// Overlap u_n along the normal, m. For a face contact, its mean over the section, so that
     /// `area` × `overlap` is the volume of overlap.
     pub overlap: f64,
     /// Area of the section of the overlap, m².
     pub area: f64,
-    /// Where the resultant of a pressure that grows with the overlap acts, m.
+    /// Point of action of the resultant of a pressure that grows with the overlap, m.
     pub pressure_centre: DVec3,
     /// Largest extent of the section, m.
     pub width: f64,
-    /// Overlap beyond which the blocks are no longer hard, a tenth of the smallest distance of a
+    /// Overlap beyond which the blocks no longer count as hard, a tenth of the smallest distance of a
     /// face from the centroid of its block, m.
     pub limit: f64,
 }
 
 impl ContactGeometry {
     /// Whether the overlap is beyond its limit: the stiffness is too low, or the step too long.
-    /// Whoever knows the blocks' names makes an [`Error::DeepOverlap`](crate::Error::DeepOverlap).
+    /// The caller, which knows the names of the blocks, can return an [`Error::DeepOverlap`](crate::Error::DeepOverlap).
     pub fn is_deep(&self) -> bool {
         self.overlap > self.limit
     }
@@ -397,14 +397,14 @@ impl ContactGeometry {
     }
 }
 
-/// Whether two blocks overlap, with proof.
+/// Proven relation of two blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// A plane keeps the blocks apart.
+    /// A plane separates the blocks.
     Apart,
     /// Neither plane nor point is found: the gap or overlap is within rounding. No force acts, and
     /// the history of the contact is kept.
     Undecided,
-    /// A point is inside both.
+    /// A point is inside both blocks.
     Contact(ContactGeometry),
 }

@@ -1,4 +1,4 @@
-//! Section of the overlap: area, mean thickness, and where its pressure acts.
+//! Section of the overlap: area, mean thickness, and pressure centre.
 
 use super::{
     centre::overlap,
@@ -7,7 +7,7 @@ use super::{
 };
 use glam::{DVec2, DVec3};
 
-/// A section in L, places from the analytic centre.
+/// A section, lengths in units of L and positions relative to the analytic centre.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Section {
     pub normal: DVec3,
@@ -17,14 +17,13 @@ pub(super) struct Section {
     pub width: f64,
 }
 
-/// Cosines of the angles between two faces up to which they lie on each other, and from which on one
-/// only rests an edge on the other, 5° and 10°; between them the two sections are mixed, so that
-/// nothing jumps.
+/// Cosines of 10° and 5°: two faces at an angle of more than 10° touch with an edge, and of less than 5° they lie flat
+/// on each other. In between, the two sections are blended, so that the contact is continuous.
 pub(super) const FLAT_FACES: [f64; 2] = [0.984_807_753_012_208, 0.996_194_698_091_745_5];
 
-/// The same for the share of Σ 1/t, t the slacks of a block's faces at the analytic centre, that the
-/// tightest face has: almost all where it lies on the other block's, half at a blunt edge, or where two
-/// edges run side by side, which belong to two pairs of faces alike and to neither.
+/// The same for the share of the tightest face in Σ 1/t, t the slacks of a block's faces at the analytic centre:
+/// almost 1 if the face lies on one of the other block, one half at a blunt edge or for two parallel edges, which
+/// belong equally to two pairs of faces.
 const SHARE: [f64; 2] = [0.6, 0.8];
 
 /// The overlap around its analytic centre.
@@ -39,7 +38,7 @@ pub(super) struct Overlap<'a> {
 }
 
 impl Overlap<'_> {
-    /// The section that the force acts on. `level`: turn the normal to the faces' where they lie flat
+    /// The section on which the force acts. `level`: rotate the normal to that of the faces if they lie flat
     /// on each other.
     pub fn section(&self, polygons: &mut Polygons, level: bool) -> Section {
         let (i, share_i) = self.tightest(0, self.split);
@@ -73,8 +72,8 @@ impl Overlap<'_> {
         }
     }
 
-    /// The section through the analytic centre, across the normal. Its pressure is proportional to the distance
-    /// along the normal from where a point leaves one block to where it leaves the other.
+    /// The section through the analytic centre, perpendicular to the normal. Its pressure is proportional to the length
+    /// of the overlap along the normal.
     fn cut(&self, polygons: &mut Polygons) -> Section {
         let plane = self.slice(&mut polygons.section, self.normal, DVec3::ZERO);
         let Polygons {
@@ -109,10 +108,10 @@ impl Overlap<'_> {
         }
     }
 
-    /// The section half-way between the faces i and j, which is where the thickness between them is
-    /// positive; its overlap is the mean thickness, and its pressure centre that of an elastic bed
-    /// (Winkler): with the analytic centre, rocking would be too soft. None if they do not face each
-    /// other there. The number: smallest over largest thickness.
+    /// The section half-way between the faces i and j, over the area with a positive thickness between
+    /// them. Its overlap is the mean thickness, and its pressure centre that of an elastic bed
+    /// (Winkler): with the analytic centre, rocking would be too soft. `None` if the faces do not face each
+    /// other there. The number is the ratio of the smallest to the largest thickness.
     fn between(&self, polygon: &mut Polygon, i: usize, j: usize) -> Option<(Section, f64)> {
         let difference = self.rows[i].normal - self.rows[j].normal;
         let normal = difference.normalize();
@@ -141,11 +140,11 @@ impl Overlap<'_> {
         })
     }
 
-    /// Cuts the plane through `origin` (from the analytic centre) by all rows.
+    /// Clips the plane through `origin` (from the analytic centre) by all rows.
     fn slice(&self, polygon: &mut Polygon, normal: DVec3, origin: DVec3) -> Plane {
         let (x, y) = normal.any_orthonormal_pair();
         let plane = Plane { origin, x, y };
-        // The smaller block is within half a unit of the origin, so within one of any of its points.
+        // The smaller block lies within half a unit of its centroid, hence within one unit of any of its points.
         polygon.reset(1.0);
         for (row, slack) in self.rows.iter().zip(self.slacks) {
             let slack = slack - row.normal.dot(origin);
@@ -154,7 +153,7 @@ impl Overlap<'_> {
         plane
     }
 
-    /// The tightest of some rows, and its share of their Σ 1/t.
+    /// The tightest of the rows `from..to`, and its share of their Σ 1/t.
     fn tightest(&self, from: usize, to: usize) -> (usize, f64) {
         let (mut tightest, mut sum) = (from, 0.0);
         for k in from..to {
@@ -167,7 +166,7 @@ impl Overlap<'_> {
     }
 }
 
-/// A plane with axes of its own.
+/// A plane with its own axes.
 struct Plane {
     origin: DVec3,
     x: DVec3,
@@ -184,13 +183,13 @@ impl Plane {
     }
 }
 
-/// From 0 at the first bound to 1 at the second, without a kink.
+/// Smooth step from 0 at the first bound to 1 at the second.
 pub(super) fn ramp(x: f64, [low, high]: [f64; 2]) -> f64 {
     let s = ((x - low) / (high - low)).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }
 
-/// Centre of a first moment; the origin where there is nothing.
+/// First moment divided by the whole; the origin if the whole is zero.
 fn ratio(first: DVec2, whole: f64) -> DVec2 {
     if whole > 0.0 {
         first / whole
@@ -204,7 +203,7 @@ fn ratio(first: DVec2, whole: f64) -> DVec2 {
 pub(super) struct Bound {
     /// Distance of the face from the polygon's origin.
     pub slack: f64,
-    /// What it loses along the polygon's axes.
+    /// Decrease of this distance along the polygon's axes.
     pub gradient: DVec2,
     /// Cosine between the face's normal and that of the plane, greater than 0.
     pub rate: f64,
@@ -217,14 +216,14 @@ impl Bound {
     }
 }
 
-/// ∫ u dA and ∫ u x dA over `section`, which holds its origin, u the height to the first of the faces.
+/// ∫ u dA and ∫ u x dA over `section`, which contains its origin, u the height to the lowest of the faces.
 ///
-/// A quadrature over the corners will not do: where a face is steep, the height falls to zero within a narrow
-/// strip along the edge that it makes, all corners lie in such strips, and the strip comes or goes when the
-/// face turns by the last bit. So the section is divided into the cells below each face.
+/// A quadrature over the corners is not sufficient: below a steep face, the height falls to zero within a narrow
+/// strip along the edge of the face, all corners lie in such strips, and a strip appears or vanishes if the
+/// face rotates by the last bit. The section is therefore divided into the cells below each face.
 pub(super) fn depth(section: &Polygon, cell: &mut Polygon, faces: &[Bound]) -> (f64, DVec2) {
     let (mut volume, mut first) = (0.0, DVec2::ZERO);
-    // Most cells are gone once they are cut by that of the origin.
+    // Most cells are empty after clipping by the face above the origin.
     let height = |k: &usize| faces[*k].slack / faces[*k].rate;
     let nearest = (0..faces.len()).min_by(|a, b| height(a).total_cmp(&height(b)));
     let Some(nearest) = nearest else {
@@ -247,7 +246,7 @@ pub(super) fn depth(section: &Polygon, cell: &mut Polygon, faces: &[Bound]) -> (
         if cell.corners.len() < 3 {
             continue;
         }
-        // Of a face as good as upright only rounding is left, of the height as of the cell.
+        // For a nearly vertical face only rounding is left of the height and of the cell.
         let moments = cell.moments(|x| face.height(x).min(faces[nearest].height(x)));
         volume += moments.volume;
         first += moments.first;

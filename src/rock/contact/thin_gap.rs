@@ -1,4 +1,4 @@
-//! Two parts that face each other over a thin gap, and what of them faces it.
+//! Two parts that face each other over a thin gap, and the shape of their facing surfaces.
 
 use super::{
     Placed,
@@ -9,28 +9,28 @@ use super::{
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Cosine between the line to a sphere and the normal of the face that it is over, up to rounding.
+/// Cosine between the line to a sphere and the normal of the face below it, up to rounding.
 const OVER_FACE: f64 = 1.0 - 1e-9;
 
-/// A thin gap between two parts, vectors along the world's axes.
+/// A thin gap between two parts. Vectors are in world axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThinGap {
     /// Unit normal from the first part to the second.
     pub normal: DVec3,
-    /// Middle of what faces the gap, half-way between the parts, m.
+    /// Middle of the facing surfaces, half-way between the parts, m.
     pub point: DVec3,
-    /// Width of the gap there, m; 0 where they touch within rounding.
+    /// Width of the gap there, m; 0 if the parts touch within rounding.
     pub gap: f64,
-    /// What faces it.
+    /// Shape of the facing surfaces.
     pub shape: GapShape,
 }
 
-/// What faces a thin gap.
+/// Shape of the surfaces that face a thin gap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GapShape {
     /// Two spheres, or a sphere and a face.
     Round {
-        /// R₁R₂/(R₁ + R₂), the radius of the one sphere that a plane would have to face, m.
+        /// R₁R₂/(R₁ + R₂), the radius of the equivalent sphere over a plane, m.
         radius: f64,
     },
     /// Two faces.
@@ -39,21 +39,21 @@ pub enum GapShape {
         area: f64,
         /// Second moments of this area about each axis, m⁴.
         moments: [f64; 2],
-        /// Torsion constant J of the area that faces the gap, m⁴: πR⁴/2 of a disc.
+        /// Torsion constant J of the area that faces the gap, m⁴: πR⁴/2 for a disc.
         torsion: f64,
         /// Axes in the plane about which the gap may tilt.
         axes: [DVec3; 2],
-        /// The same for a tilt about each, m⁶: πR⁶/8 of a disc.
+        /// The corresponding constant for a tilt about each axis, m⁶: πR⁶/8 for a disc.
         tilts: [f64; 2],
-        /// 1 where the faces are parallel to 5°, 0 from 10° on.
+        /// 1 if the faces are parallel within 5°, 0 above 10°.
         flatness: f64,
     },
 }
 
 impl ThinGap {
-    /// The gap between `first` and `second`, which do not overlap, if it is narrower than `range` (m) and a face or
-    /// a sphere is on both of its sides. At an edge or a corner the walls diverge at a finite slope: the resistance
-    /// stays finite as the gap closes, and is not counted.
+    /// The gap between `first` and `second`, which do not overlap, if it is narrower than `range` (m) and each of its
+    /// sides is a face or a sphere. At an edge or a corner the walls diverge at a finite slope: the resistance
+    /// stays finite as the gap closes, and is neglected.
     pub fn between(first: &Placed, second: &Placed, range: f64) -> Option<Self> {
         let apart = second.centre - first.centre;
         if apart.length() >= first.radius + second.radius + range {
@@ -68,7 +68,7 @@ impl ThinGap {
         found.filter(|gap| gap.gap < range)
     }
 
-    /// One of the two axes about which a gap between faces may tilt; none between spheres.
+    /// One of the two axes about which a gap between faces may tilt; zero if one side is a sphere.
     pub fn axis(&self, k: usize) -> DVec3 {
         match &self.shape {
             GapShape::Round { .. } => DVec3::ZERO,
@@ -114,9 +114,9 @@ fn ball_over_face(block: &Placed, ball: &Placed) -> Option<ThinGap> {
     })
 }
 
-/// Two faces that look at each other, and the polygon of the first that lies over the second.
+/// Two opposite faces, and the polygon of the first that lies over the second.
 pub(super) struct FacePair {
-    /// Whether the first of the two faces is that of the second part.
+    /// Whether the first of the two faces belongs to the second part.
     pub flipped: bool,
     /// Normals of the two faces.
     pub out: DVec3,
@@ -124,13 +124,13 @@ pub(super) struct FacePair {
     /// Axes in the plane of the first face.
     pub x: DVec3,
     pub y: DVec3,
-    /// Where the polygon counts from, m.
+    /// Origin of the coordinates of the polygon, m.
     origin: DVec3,
     pub polygon: Polygon,
-    /// Way along `out` to the other face, `gap` + `slope` · X, m.
+    /// Distance along `out` to the other face, `gap` + `slope` · X, m.
     pub gap: f64,
     pub slope: DVec2,
-    /// 1 where the faces are parallel to 5°, 0 from 10° on.
+    /// 1 if the faces are parallel within 5°, 0 above 10°.
     pub flatness: f64,
 }
 
@@ -141,20 +141,20 @@ impl FacePair {
         if self.flipped { -normal } else { normal }
     }
 
-    /// A place in the plane of the first face, m.
+    /// A point in the plane of the first face, m.
     pub fn lift(&self, at: DVec2) -> DVec3 {
         self.origin + self.x * at.x + self.y * at.y
     }
 
-    /// A vector along the plane.
+    /// Components of a vector along the plane.
     pub fn flat(&self, v: DVec3) -> DVec2 {
         DVec2::new(self.x.dot(v), self.y.dot(v))
     }
 }
 
-/// The faces of two polyhedra that look at each other over less than `range` (m).
+/// The opposite faces of two polyhedra, if their gap is less than `range` (m).
 pub(super) fn face_pair(first: &Placed, second: &Placed, range: f64) -> Option<FacePair> {
-    // The face from which the other part is farthest parts the two; none is farther than they are apart.
+    // The face from which the other part is farthest separates the two; no such distance exceeds the gap.
     let of_first = beyond(first, second, range)?;
     let of_second = beyond(second, first, range)?;
     let flipped = of_second.1 > of_first.1;
@@ -171,7 +171,7 @@ pub(super) fn face_pair(first: &Placed, second: &Placed, range: f64) -> Option<F
     }
     let (x, y) = out.any_orthonormal_pair();
     let flat = |n: DVec3| DVec2::new(x.dot(n), y.dot(n));
-    // Origin: the smaller part's centroid in the plane of the face, from the centroid of `own`.
+    // Origin: the smaller part's centroid, projected onto the plane of the face, from the centroid of `own`.
     let shift = other.centre - own.centre;
     let small = if other.radius < own.radius {
         shift
@@ -184,7 +184,7 @@ pub(super) fn face_pair(first: &Placed, second: &Placed, range: f64) -> Option<F
     for (_, face) in own.faces.iter().enumerate().filter(|(k, _)| *k != f) {
         polygon.clip(flat(face.normal), -face.height(origin));
     }
-    // Way along the normal to the other face: t₀ + t₁ · X.
+    // Distance along the normal to the other face: t₀ + t₁ · X.
     let opposite = other.faces[g];
     let slope = opposite.normal.dot(out);
     let t0 = -opposite.height(origin - shift) / slope;
@@ -211,14 +211,14 @@ pub(super) fn face_pair(first: &Placed, second: &Placed, range: f64) -> Option<F
     })
 }
 
-/// The gap between the faces of two polyhedra that look at each other.
+/// The gap between the opposite faces of two polyhedra.
 fn faces(first: &Placed, second: &Placed, range: f64) -> Option<ThinGap> {
     let face_pair = face_pair(first, second, range)?;
     let seconds = face_pair.polygon.second_moments()?;
     let gap = (face_pair.gap + face_pair.slope.dot(seconds.centre)).max(0.0);
     let area = seconds.area;
     let [large, least] = seconds.principal;
-    // The ellipse of the same area and ratio of axes; the sides of a strip of rounding make none.
+    // The ellipse of the same area and ratio of axes; a strip as narrow as rounding has none.
     let ratio = (large / least).sqrt();
     let square = area / PI;
     let [a2, b2] = [square * ratio, square / ratio];
@@ -236,7 +236,7 @@ fn faces(first: &Placed, second: &Placed, range: f64) -> Option<ThinGap> {
         shape: GapShape::Flat {
             area,
             moments: [large, least],
-            // St. Venant's A⁴/(4π² I_p), exact for ellipses, 8 % too much for a square, 9 % too little for a strip.
+            // St. Venant's A⁴/(4π² I_p), exact for ellipses, 8 % too large for a square, 9 % too small for a strip.
             torsion: area.powi(4) / (4.0 * PI * PI * (large + least)),
             axes: [face_pair.out.cross(along), along],
             tilts: [tilt(a2, b2), tilt(b2, a2)],
@@ -245,7 +245,7 @@ fn faces(first: &Placed, second: &Placed, range: f64) -> Option<ThinGap> {
     })
 }
 
-/// The face of `own` that all of `other` is farthest beyond, and by how much; none if that is `range` or more.
+/// The face of `own` from which `other` is farthest, and this distance, m; `None` if it is `range` or more.
 fn beyond(own: &Placed, other: &Placed, range: f64) -> Option<(usize, f64)> {
     let apart = other.centre - own.centre;
     let mut most = (0, f64::NEG_INFINITY);
@@ -347,7 +347,7 @@ mod tests {
         else {
             panic!("faces");
         };
-        // A strip as wide as the gap takes to grow to the range.
+        // The strip over which the gap is within the range.
         let width = 0.04 / 4f64.to_radians().tan();
         let polar = (width.powi(3) + width) / 12.0;
         assert!(

@@ -4,7 +4,7 @@
 use crate::{Error, Result, geometry::inner};
 use glam::DMat3;
 
-/// Elasticity of the material inside a block, isotropic.
+/// Isotropic elasticity of the material of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elastic {
     /// Young's modulus, Pa.

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 /// A fluid between blocks whose flow in thin gaps is not resolved by the fluid solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
-    /// Dynamic viscosity μ, Pa s; 0 without friction.
+    /// Dynamic viscosity μ, Pa s; 0 for an inviscid fluid.
     pub viscosity: f64,
     /// Gap h₀ above which the flow is resolved if one side is a sphere, m.
     pub round: f64,
@@ -25,7 +25,8 @@ pub struct Film {
     pub roughness: f64,
     /// Delay of the loads of the fluid; `None` without delay.
     pub delay: Option<LoadDelay>,
-    /// Blocks along which the fluid slips, ascending: between one of them and another block the resistance is a quarter.
+    /// Blocks along which the fluid slips, ascending. Between one of them and a block without slip the resistance is a
+    /// quarter.
     pub slip: Vec<usize>,
 }
 
@@ -51,8 +52,8 @@ impl Film {
         self.round.max(self.flat).max(delay)
     }
 
-    /// Normal force over the velocity at which the gap closes, N s/m: 6πμR²(1/h − 1/h₀) of spheres,
-    /// 3μJ(1/h³ − 1/h₀³) of faces, which is 3πμR⁴/2 (1/h³ − 1/h₀³) for discs.
+    /// Normal force over the closing velocity of the gap, N s/m: 6πμR²(1/h − 1/h₀) for spheres,
+    /// 3μJ(1/h³ − 1/h₀³) for faces, which is 3πμR⁴/2 (1/h³ − 1/h₀³) for discs.
     pub fn resistance(&self, thin_gap: &ThinGap) -> f64 {
         match &thin_gap.shape {
             GapShape::Round { radius } => {
@@ -70,7 +71,7 @@ impl Film {
         }
     }
 
-    /// Moment over the rate at which the gap tilts, N m s, about each axis of two faces.
+    /// Moment over the tilt rate of the gap, N m s, about each axis of two faces.
     pub fn tilting(&self, thin_gap: &ThinGap) -> [f64; 2] {
         match &thin_gap.shape {
             GapShape::Round { .. } => [0.0; 2],
@@ -82,7 +83,7 @@ impl Film {
         }
     }
 
-    /// 1/hⁿ − 1/h₀ⁿ, 0 from h₀ on.
+    /// 1/hⁿ − 1/h₀ⁿ, 0 above h₀.
     fn excess(&self, gap: f64, range: f64, n: i32) -> f64 {
         let h = gap.max(self.roughness);
         (h.powi(-n) - range.powi(-n)).max(0.0)
@@ -114,7 +115,7 @@ mod tests {
         }
     }
 
-    /// Brenner 1961, Chem. Eng. Sci. 16:242: drag of a sphere that approaches a plane, over Stokes's.
+    /// Brenner 1961, Chem. Eng. Sci. 16:242: drag of a sphere that approaches a plane, over the Stokes drag.
     fn brenner(gap: f64) -> f64 {
         let alpha = (1.0f64 + gap).acosh();
         let term = |n: i32| {

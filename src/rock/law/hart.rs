@@ -3,19 +3,19 @@
 //!
 //! f_n = k_n A u_n, f_s ← f_s − k_s A Δu_s, |f_s| ≤ cA + f_n tan φ, c_n = 2ζ√(m* k_n A).
 //!
-//! The springs act in the pressure centre, where the resultant of the pressure over the face is. The
-//! dashpots act over the face as the springs do: 3DEC has them in every sub-contact. In one point they
-//! would not damp rocking at all, since the pressure centre of a rocking block moves with the angle:
+//! The springs act at the pressure centre, the point of action of the resultant pressure over the face. The
+//! dashpots are distributed over the face like the springs: 3DEC has them in every sub-contact. At a single point they
+//! would not damp rocking, since the pressure centre of a rocking block moves with the angle:
 //! the damping would be of second order in it, and a stack would never come to rest. Their moment is
-//! that of a square face of the contact's area, A/12 for rocking and A/6 for twist. A sphere does not rock on
-//! its contact, it rolls: over a contact that moves with it the springs dissipate nothing, and no dashpot resists the rotation.
+//! that of a square face of the contact's area, A/12 for rocking and A/6 for twist. A sphere rolls on its contact
+//! instead of rocking: the contact moves with it, the springs dissipate nothing, and no dashpot resists the rolling.
 //!
 //! A bond is a contact whose springs also carry tension: it keeps its initial area, and bends over it as an elastic
-//! bed. It breaks permanently if its tension reaches σ_t at a corner, or if it has slipped by σ_t/k_s, the distance by which
-//! it opens before it breaks. It has no spring against a twist about its normal, which only dashpots resist. A broken bond is a contact
-//! without tension.
+//! bed. It breaks permanently if its tension reaches σ_t at a corner, or if it has slipped by σ_t/k_s, the distance by
+//! which it opens before it breaks. It has no spring against a twist about its normal, which only dashpots resist. A
+//! broken bond is a contact without tension.
 //!
-//! Hart, Cundall & Lemos 1988: the longest stable step, from an upper bound of the highest frequency.
+//! The longest stable step follows from an upper bound of the highest frequency (Hart, Cundall & Lemos 1988).
 //!
 //! ω² = max over the blocks of 2·max(Σ(k_n + k_s) A/m, Σ(k_n + k_s) A (|r|² + w²/4)/I_min), r from the
 //! block's centroid to the contact, w the width of its section; Δt ≤ share · 2/ω.
@@ -31,7 +31,7 @@ pub struct History {
     pub shear: DVec3,
     /// Normal when `shear` was stored, in the first block's frame.
     pub normal: DVec3,
-    /// Whether the tensile strength still holds.
+    /// Whether the bond is intact.
     pub bonded: bool,
     /// Slip of a bond, m.
     pub slip: f64,
@@ -42,7 +42,7 @@ pub struct History {
 pub struct Section {
     /// Unit normal from the first to the second block.
     pub normal: DVec3,
-    /// u_n, m; less than 0 where a bond is open.
+    /// u_n, m; negative if a bond is open.
     pub overlap: f64,
     /// A, m².
     pub area: f64,
@@ -50,7 +50,7 @@ pub struct Section {
     pub elastic_area: f64,
     /// Whether one of the two parts is a sphere, which rolls.
     pub rolls: bool,
-    /// Opening of a bond at its widest corner less that at its middle, m: 0 without bending.
+    /// Opening of a bond at its widest corner less the opening at its middle, m: 0 without bending.
     pub opening: f64,
 }
 
@@ -65,9 +65,9 @@ pub struct Motion {
     pub spin: DVec3,
     /// Rotation of the first block.
     pub frame: DQuat,
-    /// Step, s.
+    /// Time step, s.
     pub time_step: f64,
-    /// m*: m₁m₂/(m₁ + m₂), or the mass of the one that is free, kg.
+    /// Reduced mass m*, kg: m₁m₂/(m₁ + m₂), or the mass of the only free block.
     pub mass: f64,
 }
 
@@ -152,7 +152,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let mass = motion.mass;
     let rock = dashpot(joint.damping, mass, normal_stiffness) * (area / 12.0) * rocking;
     let turn = dashpot(joint.damping, mass, shear_stiffness) * (area / 6.0) * twist;
-    // Pressure cannot pull: the resultant stays in the face, half a side from its middle. Friction over a
+    // Pressure cannot pull: the resultant stays in the face, within half a side of its middle. Friction over a
     // square has the mean arm 0.3826 a.
     let most = 0.3826 * side * strength;
     let grip = if bonded {
@@ -219,7 +219,7 @@ pub struct Joint {
     pub cohesion: f64,
     /// σ_t, Pa, of the faces that touch at the start, until their bond breaks.
     pub tensile_strength: f64,
-    /// ζ, of the critical damping of the two blocks on the contact's springs.
+    /// ζ, as a share of the critical damping of the two blocks on the contact's springs.
     pub damping: f64,
 }
 
@@ -238,9 +238,8 @@ impl Default for Joint {
 }
 
 impl Joint {
-    /// The joint of two materials without a pair of their own: the harmonic mean of
-    /// the stiffnesses (springs in series), the weaker of the strengths, the mean of the dampings.
-    /// Two faces of one material have that material's joint.
+    /// The default joint of two materials: the harmonic mean of the stiffnesses (springs in series), the lower of
+    /// the strengths, the mean of the damping ratios. Two faces of the same material have the joint of that material.
     pub fn between(a: &Self, b: &Self) -> Self {
         let series = |a: f64, b: f64| 2.0 / (1.0 / a + 1.0 / b);
         Self {
@@ -316,7 +315,7 @@ impl Stiffness {
         self.rotation += k * (arm.length_squared() + 0.25 * width * width);
     }
 
-    /// ω² of a block of `mass` (kg) and least moment of inertia `moment` (kg m²), rad²/s².
+    /// ω² of a block of `mass` (kg) and smallest moment of inertia `moment` (kg m²), rad²/s².
     pub fn frequency_squared(&self, mass: f64, moment: f64) -> f64 {
         2.0 * (self.translation / mass).max(self.rotation / moment)
     }

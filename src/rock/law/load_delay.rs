@@ -2,10 +2,11 @@
 //!
 //! A fluid that is advanced alternately with its blocks returns the loads of a step at its end. Water in a joint is stiff:
 //! a gap that closes by dh raises its pressure by ρ c² dh/H, H being the thickness of the water that is compressed. A
-//! spring k whose force lags by t_d has a part in the direction of the motion, F = −k x(t − t_d) ≈ −k x + k t_d dx/dt, and the blocks on
-//! its sides oscillate with a growth rate of k t_d/2m, as fast as the waves in it for blocks a few cells thick. The damping
-//! k t_d cancels this. It is correct only while the pressure follows the gap; if water leaves a gap as fast as it
-//! closes, the pressure is constant and its delay has no effect. The damping therefore acts on the velocity less a mean over the last steps.
+//! spring k whose force lags by t_d has a part in the direction of the motion, F = −k x(t − t_d) ≈ −k x + k t_d dx/dt,
+//! and the blocks on its sides oscillate with a growth rate of k t_d/2m, about as fast as the waves in it for blocks a
+//! few cells thick. The damping k t_d cancels this. It is correct only while the pressure follows the gap; if water
+//! leaves a gap as fast as it closes, the pressure is constant and its delay has no effect. The damping therefore acts
+//! on the velocity less a mean over the last steps.
 
 use crate::{
     Result,
@@ -37,8 +38,8 @@ impl LoadDelay {
         positive("film.delay.memory", self.memory, "s")
     }
 
-    /// Normal force over the velocity at which the gap closes, N s/m, and moment over the rate at which it tilts about each
-    /// axis, N m s; zero if one side is a sphere.
+    /// Normal force over the closing velocity of the gap, N s/m, and moment over its tilt rate about each axis, N m s; zero
+    /// if one side is a sphere.
     pub fn resistance(&self, thin_gap: &ThinGap) -> (f64, [f64; 2]) {
         let GapShape::Flat {
             area,

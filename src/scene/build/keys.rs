@@ -1,6 +1,6 @@
-//! From fields of setups to the keys of scenes that give them.
+//! Maps fields of setups to the keys of scenes that set them.
 
-/// The key of a scene that gives the field `what` of a [`lattice::Setup`](crate::lattice::Setup) or of the initial
+/// The key of a scene that sets the field `what` of a [`lattice::Setup`](crate::lattice::Setup) or of the initial
 /// [`lattice::State`](crate::lattice::State).
 pub(crate) fn lattice_key(what: &str) -> String {
     match what {
@@ -21,7 +21,7 @@ pub(crate) fn lattice_key(what: &str) -> String {
     }
 }
 
-/// The key of a scene that gives the field `what` of an [`sph::Setup`](crate::sph::Setup).
+/// The key of a scene that sets the field `what` of an [`sph::Setup`](crate::sph::Setup).
 #[cfg(feature = "sph")]
 pub(crate) fn particle_key(what: &str) -> String {
     match what {
@@ -43,7 +43,7 @@ pub(crate) fn particle_key(what: &str) -> String {
     }
 }
 
-/// The key of a scene that gives the field `what` of a [`rock::Setup`](crate::rock::Setup).
+/// The key of a scene that sets the field `what` of a [`rock::Setup`](crate::rock::Setup).
 #[cfg(feature = "rock")]
 pub(crate) fn rock_key(what: &str) -> String {
     match what {

@@ -1,4 +1,4 @@
-//! From a scene in SI to a fluid in lattice units, and these units.
+//! Conversion of a scene in SI to a fluid in lattice units, and these units.
 
 use crate::{
     Error, Result,
@@ -40,8 +40,8 @@ impl Units {
     }
 }
 
-/// The lattice fluid of a scene; `cpu` has the features of an adapter for whose CPU the kernels are to be made, where
-/// several cells an invocation and wide words pay. Without it they are made for GPUs.
+/// The lattice fluid of a scene. With `cpu`, the features of an adapter, the kernels are made for a CPU, where several cells
+/// per invocation and wide words are faster; without it they are made for GPUs.
 ///
 /// # Errors
 /// If a formula is not finite somewhere, or a mesh cannot be read.
@@ -155,7 +155,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         None => setup.suit_gpu(),
     }
     if !scene.solids.is_empty() {
-        // That of blocks, or of the operator that solids have without blocks.
+        // The weight for blocks, or the default weight of the operator.
         let weight = setup.solid_weight.unwrap_or(match setup.solid_operator {
             None | Some(SolidOperator::Holdych) => SolidWeight::Exact,
             Some(_) => SolidWeight::Standard,
@@ -181,16 +181,16 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         None => [if software { 4 } else { fewest }, fewest],
     };
     if !preferred.iter().any(|&lanes| setup.spread_lanes(lanes)) {
-        // What is impossible is refused with its reason.
+        // An impossible number is refused later, with the reason.
         setup.lanes = preferred[1];
     }
     Ok(setup)
 }
 
-/// Aperture of closed joints, m → cells; refused where cells and viscosity have no such joints.
+/// Aperture of closed joints, m → cells; refused if joints with this cell and viscosity cannot have it.
 fn aperture_to_lattice(aperture: f64, setup: &Setup, units: &Units) -> Result<f64> {
     let range = setup.joint_aperture_range().map(|cells| cells * units.cell);
-    // Four digits of the range, as the message has them, are enough.
+    // Tolerates the rounding of the range in the message.
     if (range[0] * (1.0 - 1e-4)..=range[1] * (1.0 + 1e-4)).contains(&aperture) {
         let [least, largest] = range;
         return Ok(aperture.clamp(least, largest) / units.cell);
@@ -205,7 +205,7 @@ fn aperture_to_lattice(aperture: f64, setup: &Setup, units: &Units) -> Result<f6
     ))
 }
 
-/// Roughness of a wall, m → cells; refused where the law of a rough wall does not hold.
+/// Roughness of a wall, m → cells; refused if the law of a rough wall does not hold.
 fn roughness_to_lattice(roughness: f64, units: &Units, key: impl Fn() -> String) -> Result<f64> {
     let cells = roughness / units.cell;
     if cells <= MAX_ROUGHNESS {
@@ -221,10 +221,10 @@ fn roughness_to_lattice(roughness: f64, units: &Units, key: impl Fn() -> String)
     ))
 }
 
-/// Density that a face holds at the time `t` (s), lattice units; 1 where it holds none.
+/// Density prescribed on a face at the time `t` (s), lattice units; 1 if the face prescribes none.
 ///
 /// # Errors
-/// If a formula is not finite then.
+/// If a formula is not finite at this time.
 pub fn face_density(scene: &Scene, units: &Units, face: scene::Face, t: f64) -> Result<f64> {
     let pressure = scene.face_pressure(face, t)?;
     Ok(units.pressure_to_lattice(pressure.unwrap_or(0.0)))

@@ -1,4 +1,4 @@
-//! From a scene to the setups of the engines: lattice, blocks, particles.
+//! Conversion of a scene to the setups of the engines: lattice, blocks, particles.
 
 #[cfg(feature = "rock")]
 mod blocks;

@@ -15,10 +15,10 @@ use glam::DVec3;
 /// Bisection steps for the length of a run: to a millionth of the initial interval.
 const BISECTIONS: u32 = 20;
 
-/// Acoustic steps of a step of the scene at most: the water takes as many equal ones as it wants, so that rounding
-/// wastes at most a tenth of them where nobody asks for shorter steps.
+/// Largest number of acoustic steps in a step of the scene. The water takes a whole number of equal steps, so rounding wastes
+/// at most a tenth of them unless outputs require shorter steps of the scene.
 const ACOUSTIC_STEPS: f64 = 10.0;
-/// How far from a whole number of steps the run may end, of a step: rounding.
+/// Deviation of the number of steps of a run from a whole number that counts as rounding, relative.
 const ROUNDING: f64 = 1e-6;
 
 /// The setup and the initial particles of a scene with the walls and blocks of `blocks`.
@@ -108,7 +108,7 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
     Ok((setup, start))
 }
 
-/// The particles of a scene.
+/// The particle settings of a scene.
 fn particles(scene: &Scene) -> Result<&scene::Particles> {
     scene.particles.as_ref().ok_or_else(|| {
         Error::scene(
@@ -213,8 +213,8 @@ fn run_length(run: &scene::Run, mut step: impl FnMut(f64) -> f64) -> f64 {
     high
 }
 
-/// The largest expected speed, m/s: the one that the scene gives, or else that of the water (m/s) and of driven and free
-/// blocks.
+/// The largest expected speed, m/s: the one that the scene gives, otherwise that of the water (`of_water`, m/s) and of driven
+/// and free blocks.
 fn largest_speed(
     particles: &scene::Particles,
     blocks: &[Block],
@@ -255,12 +255,12 @@ fn check_driven_speeds(blocks: &[Block], speeds: &SpeedEstimate, sound_speed: f6
     Ok(())
 }
 
-/// Length of a step of `scene`, s: at most ten acoustic steps of `acoustic` s, and so that as many whole ones as can be
-/// make up the shortest interval of its outputs and its duration.
+/// Length of a step of `scene`, s: at most ten acoustic steps of `acoustic` s. The duration of the run is a whole number of
+/// steps, and so is the shortest interval of its outputs if the duration allows it.
 pub(crate) fn scene_step(scene: &Scene, acoustic: f64) -> f64 {
     let longest = ACOUSTIC_STEPS * acoustic;
     let step = match scene.shortest_interval() {
-        // None is shorter than what sound wants.
+        // Several intervals per step: no step is shorter than the speed of sound requires.
         Some(every) if every < acoustic => every * (acoustic / every).floor(),
         Some(every) => every / (every / longest).ceil(),
         None => longest,
@@ -272,7 +272,7 @@ pub(crate) fn scene_step(scene: &Scene, acoustic: f64) -> f64 {
     let whole = steps.round().max(1.0);
     match (steps - whole).abs() < ROUNDING * whole {
         true => duration / whole,
-        // The run ends when it is said to.
+        // The run ends exactly at its duration.
         false => duration / steps.ceil(),
     }
 }
@@ -297,14 +297,14 @@ mod tests {
     #[test]
     fn outputs_come_when_they_are_asked_for() {
         let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
-        // Nobody asks.
+        // No outputs at intervals.
         assert!(close(step(1.0, ""), 0.01));
         assert!(close(step(1.005, ""), 1.005 / 101.0));
-        // Every 25 ms in three steps, every 3 ms in one of them, every 0.4 ms as often as sound allows.
+        // Every 25 ms in three steps, every 3 ms in one step, every 0.4 ms as often as the speed of sound allows.
         assert!(close(step(1.0, "output.every = 0.025"), 0.025 / 3.0));
         assert!(close(step(3.0, "output.every = 0.003"), 0.003));
         assert!(close(step(1.0, "output.every = 0.0004"), 0.0008));
-        // The run ends in time.
+        // The run ends exactly at its duration.
         assert!(close(step(1.0, "output.every = 0.003"), 1.0 / 334.0));
     }
 }

@@ -1,4 +1,4 @@
-//! Constants of kernels: none is forgotten, and none is given in vain.
+//! Constants of kernels: all of them are set, and none is unused.
 
 use super::single_cells::SINGLE;
 use glam::DVec3;
@@ -42,7 +42,7 @@ fn misspelt_and_missing_constants_are_refused_by_name() {
     Kernel::new(&device, &linked, "fall", &[("GRAVITY_Z", -9.81)]).unwrap();
 }
 
-/// Each name of a family's table is declared by a kernel of the family: no number is set in vain.
+/// Each name in a family's table of constants is declared by a kernel of the family, so that none is unused.
 fn check_family(family: &[(&str, f64)], kernels: impl IntoIterator<Item = Linked>) {
     let kernels: Vec<Linked> = kernels.into_iter().collect();
     for (name, _) in family {

@@ -1,9 +1,9 @@
-//! Where errors are found, and that unrolled loops are the loops.
+//! Positions of errors, and that unrolled loops equal the loops.
 
 use kit::assert_contains;
 use riprap::{Error, gpu::link::Program};
 
-/// The place of an error and its message.
+/// The position of an error and its message.
 fn place(program: Program) -> (String, u32, String) {
     match program.link().unwrap_err() {
         Error::Shader {
@@ -32,7 +32,7 @@ fn errors_are_where_the_text_was_written() {
 }
 ";
     assert!(program(right).link().is_ok());
-    // Behind a loop that has become 27 blocks, then inside of it.
+    // After a loop that has become 27 blocks, then inside of it.
     let (file, line, message) = place(program(&right.replace("return s;", "return s +;")));
     assert_eq!((file.as_str(), line), ("unrolled", 6), "{message}");
     let (file, line, message) = place(program(&right.replace("return s;", "return t;")));
@@ -42,7 +42,7 @@ fn errors_are_where_the_text_was_written() {
     // Valid syntax, invalid types.
     let (file, line, message) = place(program("fn f() -> f32 {\n    return 1u;\n}\n"));
     assert_eq!(file, "unrolled", "{line}: {message}");
-    // In the file of the entry point, behind all others.
+    // In the file of the entry point, after all others.
     let broken = entry.replace("fn main() {}", "fn main() {\n    h();\n}");
     let (file, line, message) = place(program("").text("entry", broken));
     assert_eq!((file.as_str(), line), ("entry", 6), "{message}");

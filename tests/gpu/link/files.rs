@@ -1,4 +1,4 @@
-//! The files themselves.
+//! The kernel files themselves.
 
 use riprap::gpu::link::{SOURCES, needs};
 use std::{
@@ -31,7 +31,7 @@ fn every_file_is_a_source_and_the_reverse() {
 
 #[test]
 fn files_stand_on_files_that_exist() {
-    // Their texts depend on the setup.
+    // Their text depends on the setup.
     let generated = [
         "populations",
         "scalars",
@@ -52,8 +52,8 @@ fn files_stand_on_files_that_exist() {
     }
 }
 
-/// A file begins with what it is; one with an entry point with the author and year of its formula,
-/// unless it only copies.
+/// A file begins with a statement of its content; if it has an entry point, with the author and year of its formula, unless
+/// it only copies.
 #[test]
 fn first_lines_say_what_a_file_is() {
     let year = |word: &str| {
@@ -76,7 +76,7 @@ fn first_lines_say_what_a_file_is() {
     }
 }
 
-/// Names in code spans of a cell of a table, up to what follows an identifier.
+/// Names in code spans of a cell of a table, up to the end of the identifier.
 fn names(cell: &str) -> Vec<&str> {
     let spans = cell.split('`').skip(1).step_by(2);
     spans
@@ -116,7 +116,7 @@ fn the_table_of_slots_lists_each_slot_with_its_files_and_functions() {
     assert_eq!(listed, slots);
 }
 
-/// A constant that a caller forgets must be an error and not a number that looks right.
+/// A constant that a caller forgets must be an error and not a plausible default.
 #[test]
 fn no_constant_has_a_default() {
     for (name, text) in SOURCES {

@@ -1,5 +1,5 @@
-//! Every kernel in every variant is valid WGSL with the bindings that it needs and no others; the
-//! linker says where a text is wrong, and naga writes it in the languages of all drivers.
+//! Every kernel in every variant is valid WGSL with exactly the bindings that it needs; the linker gives the position of
+//! errors, and naga translates the kernels to the languages of all drivers.
 
 mod constants;
 mod errors;

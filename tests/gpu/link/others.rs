@@ -1,4 +1,4 @@
-//! The kernels of blocks, particles and the search for pairs in the languages of drivers.
+//! The kernels of blocks, particles and broadphase in the languages of drivers.
 
 use super::translate::translate;
 use glam::DVec3;
@@ -13,7 +13,7 @@ use riprap::{
 };
 use std::collections::HashMap;
 
-/// One for each number that a caller gives.
+/// Translates a kernel with 1 for each constant that callers must give.
 fn plain(program: &Program, entry: &str) {
     let linked = program
         .link()
@@ -91,7 +91,7 @@ fn kernels_of_particles_in_all_variants() {
             for neighbours in [NeighbourSearch::Cells, NeighbourSearch::Lists] {
                 let mut setup = Setup::tank(DVec3::splat(2.0), 0.1, 10.0);
                 (setup.equation_of_state, setup.neighbours) = (state, neighbours);
-                // With one of them, to have both.
+                // For one equation of state only, to cover both variants.
                 setup.laminar_viscosity = match state {
                     EquationOfState::Linear => 0.0,
                     EquationOfState::Tait => 0.01,
@@ -124,7 +124,7 @@ fn the_kernel_that_gathers() {
     plain(&single_cells(&fluid, 1, "gather"), "gather");
 }
 
-/// A kernel that nobody adds to a test is found here.
+/// Finds kernels that no test translates.
 #[test]
 fn every_file_with_an_entry_point_is_translated() {
     let single = super::single_cells::SINGLE.iter().map(|(file, ..)| *file);

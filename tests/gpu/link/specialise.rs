@@ -7,7 +7,7 @@ use riprap::{
 };
 use std::collections::{BTreeSet, HashMap};
 
-/// Numbers of bindings that spread 27 directions in all ways that the limits of devices ask for.
+/// Numbers of bindings that spread 27 directions in every manner required by the limits of devices.
 pub const BINDINGS: [u32; 6] = [1, 2, 4, 7, 14, 27];
 /// Storage, lanes, and whether words have 64 bits.
 pub const LAYOUTS: [(Storage, u32, bool); 6] = [
@@ -28,7 +28,7 @@ pub fn forces() -> [Force; 3] {
     ]
 }
 
-/// One of each choice that a setup offers.
+/// All combinations of the choices that a setup offers, as indices.
 pub fn variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     let counts = counts.to_vec();
     (0..counts.iter().product()).map(move |mut n| {
@@ -42,7 +42,7 @@ pub fn variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
 }
 
 /// A third of them. If at least five of the choices have three values or more, the values of any four choices occur in all
-/// combinations: what is wrong with a slot is wrong beside one or two others.
+/// combinations: an error of a slot also shows in combination with one or two others.
 pub fn third_of_variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     variants(counts).filter(|variant| {
         let weighted = variant.iter().zip([1, 2].into_iter().cycle());
@@ -61,7 +61,7 @@ pub fn bindings_of(variant: &[usize]) -> u32 {
 }
 
 /// naga's last steps before a driver sees a shader: overrides become numbers, expressions of them are evaluated and
-/// validated, and the whole is written in the language of the driver.
+/// validated, and the module is translated to the language of the driver.
 pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
     let grid = Grid::new(setup).unwrap();
     let mut numbers: HashMap<String, f64> = [
@@ -78,7 +78,7 @@ pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
     translate(linked, entry, &numbers, setup.is_wide());
 }
 
-/// Names of the buffers but those of the populations, and how many those are.
+/// Names of the buffers except those of the populations, and the number of the latter.
 pub fn names(linked: &Linked, entry: &str) -> (BTreeSet<String>, usize) {
     let (populations, others): (Vec<_>, Vec<_>) = bindings(linked, entry)
         .unwrap()

@@ -1,11 +1,11 @@
-//! The step: all slots, and each pair of a slot's file and a number of bindings.
+//! The step kernels: all slots, and each pair of a slot's file and a number of bindings.
 
 use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, third_of_variants};
 use riprap::lattice::{
     BrickKind, Collision, Equilibrium, Setup, SolidOperator, SurfaceCell, WallModel, collide_stream,
 };
 
-/// What kinds of brick there are, each operator of solids once, and whether solids at rest fill cells in part.
+/// Kinds of bricks, each solid operator once, and whether solids at rest fill cells partially.
 const KINDS: [(BrickKind, Option<SolidOperator>, bool); 7] = [
     (BrickKind::All, None, false),
     (BrickKind::Plain, None, true),
@@ -40,7 +40,7 @@ fn the_step_in_variants_of_all_slots() {
         }
         let flagged = !matches!(kind, BrickKind::All | BrickKind::Plain);
         let with_surface = surface && matches!(kind, BrickKind::Surface | BrickKind::Psm);
-        // Walls have flags, so that not all bricks are of plain fluid.
+        // Walls set flags, so that not all bricks are of plain fluid.
         if wale == 2 && kind == BrickKind::All {
             continue;
         }

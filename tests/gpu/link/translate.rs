@@ -1,6 +1,6 @@
 //! Linked kernels in the languages of drivers: Metal, HLSL, SPIR-V and OpenGL ES 3.1.
 //!
-//! What naga can write, the compiler behind it may still refuse; what naga cannot write, no device of that kind runs.
+//! A compiler may still reject what naga translates; a kernel that naga cannot translate runs on no device of that kind.
 
 use naga::{
     Module, ShaderStage,
@@ -14,7 +14,7 @@ use std::collections::HashMap;
 /// Metal 2.0, which macOS has had since 10.13.
 const METAL: (u8, u8) = (2, 0);
 
-/// A kernel whose overrides get these numbers, in all languages; `wide` ones have integers of 64 bits.
+/// Translates a kernel with these values of its overrides to all languages; `wide` kernels have integers of 64 bits.
 pub fn translate(linked: &Linked, entry: &str, numbers: &HashMap<String, f64>, wide: bool) {
     let numbers = numbers.iter().map(|(name, n)| (name.clone(), *n)).collect();
     let stage = (ShaderStage::Compute, entry);
@@ -41,7 +41,7 @@ pub fn translate(linked: &Linked, entry: &str, numbers: &HashMap<String, f64>, w
     }
 }
 
-/// Length of what was written.
+/// Length of the translation.
 type Written = Result<usize, String>;
 
 fn metal(module: &Module, info: &ModuleInfo, entry: &str) -> Written {
@@ -62,7 +62,7 @@ fn metal(module: &Module, info: &ModuleInfo, entry: &str) -> Written {
 }
 
 fn direct(module: &Module, info: &ModuleInfo, entry: &str, wide: bool) -> Result<String, String> {
-    // 5.1 is what the compiler of Windows takes; 64 bits want DXC.
+    // The compiler of Windows takes 5.1; 64 bits require DXC.
     let shader_model = match wide {
         true => hlsl::ShaderModel::V6_0,
         false => hlsl::ShaderModel::V5_1,

@@ -1,4 +1,4 @@
-//! The f64 twin itself against exact results.
+//! The f64 twin itself, compared with exact results.
 
 mod physics;
 mod turbulence;

@@ -115,7 +115,7 @@ fn hermite_moments_are_tensor_hermite_polynomials_up_to_sums_and_differences() {
             assert!(product.abs() < 1e-13, "rows {a} and {b}: {product}");
         }
     }
-    // Which moments H_abc with 1, x, x² − 1/3 an orthogonal row may contain, by the rate that it relaxes with.
+    // The moments H_abc with 1, x, x² − 1/3 that an orthogonal row may contain, by its relaxation rate.
     let orders: [(std::ops::RangeInclusive<usize>, &[[u32; 3]]); 10] = [
         (4..=4, &[[2, 0, 0]]),
         (5..=6, &[[2, 0, 0]]),
@@ -217,7 +217,7 @@ fn apparent_viscosity(kind: Equilibrium, speed: f64) -> f64 {
 
 #[test]
 fn product_equilibrium_restores_galilean_invariance_of_viscosity() {
-    // Order 2 lacks the u³ that makes the viscosity 1 − 3U² of nominal; k² = 0.017 leaves 1e-3 of discretisation.
+    // Order 2 lacks the u³ term, so that the viscosity is 1 − 3U² of nominal; k² = 0.017 leaves 1e-3 of discretisation.
     for speed in [0.1, 0.2] {
         let order2 = apparent_viscosity(Equilibrium::Order2, speed);
         assert_near(order2, 1.0 - 3.0 * speed * speed, 3e-3);
@@ -226,8 +226,8 @@ fn product_equilibrium_restores_galilean_invariance_of_viscosity() {
     }
 }
 
-/// Root mean square of the populations about their mean after `steps`, over the same at the start,
-/// in a quiescent box of 16³ cells with noise of 1e-6.
+/// Root mean square of the populations about their mean after `steps`, relative to the start, in a quiescent box of 16³
+/// cells with noise of 1e-6.
 fn growth_of_noise(config: Config, steps: usize) -> f64 {
     let mut flow = Twin::new(Domain::periodic([16; 3]), config);
     for cell in 0..flow.domain.cell_count() {
@@ -256,7 +256,7 @@ fn quiescent_noise_decays_with_hermite_moments() {
 
 #[test]
 fn quiescent_noise_grows_with_the_published_moments_above_their_bound() {
-    // 7.4 % a step at τ = 1 once the unstable mode has emerged from the decaying rest.
+    // 7.4 % per step at τ = 1 once the unstable mode has emerged from the decaying rest.
     let config = Config {
         operator: Operator::Suga,
         ..Config::new(1.0)

@@ -1,4 +1,4 @@
-//! The f64 twin's eddy viscosity and what is measured from a velocity gradient.
+//! The f64 twin's eddy viscosity and quantities from a velocity gradient.
 
 use kit::{
     assert_near, assert_relative,

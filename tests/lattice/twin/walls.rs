@@ -1,4 +1,4 @@
-//! The f64 twin at its borders: walls, solids, mirrors and velocity faces.
+//! The f64 twin at its boundaries: walls, solids, mirrors and velocity faces.
 
 #![allow(
     clippy::needless_range_loop,
@@ -61,7 +61,7 @@ fn poiseuille_offset(config: Config) -> [f64; 8] {
     })
 }
 
-/// What is left of the start, and of u² in ρ, in units of u'': U_max is 8 of them.
+/// Remainder of the start, and of u² in ρ, in units of u'': U_max is 8 of them.
 const STEADY: f64 = 1e-7;
 
 #[test]
@@ -80,8 +80,8 @@ fn poiseuille_is_exact_with_lambda_three_sixteenths_at_any_tau() {
 
 #[test]
 fn lambda_away_from_the_wall_decides_the_slip_of_the_interior() {
-    // Half-way bounce-back displaces the parabola by 2/3 (Λ − 3/16) u''. A cell that relaxes with another Λ than its
-    // neighbours is displaced by its own Λ alone, so a rule for the wall cells leaves the flow between them as it was.
+    // Half-way bounce-back displaces the parabola by 2/3 (Λ − 3/16) u''. A cell with another Λ than its neighbours is displaced
+    // by its own Λ alone, so that a rule for the wall cells does not change the flow between them.
     let s_odd = 1.6;
     let tau = 1.0;
     let interior = 2.0 / 3.0 * ((1.0 / s_odd - 0.5) * (tau - 0.5) - 3.0 / 16.0);
@@ -141,7 +141,7 @@ fn couette_is_linear_between_wall_and_lid() {
     for y in 0..h {
         let exact = lid * (y as f64 + 0.5) / h as f64;
         let u = flow.macroscopic(flow.domain.index([1, y, 0])).1;
-        // u² of the equilibrium feeds ρ through the bulk rate, which differs from the shear rate.
+        // u² of the equilibrium affects ρ through the bulk rate, which differs from the shear rate.
         assert_near(u[0], exact, 1e-5 * lid);
     }
     // A tangential lid moves no mass.
@@ -185,7 +185,7 @@ fn velocity_face_reflects_with_the_density_that_results() {
 
 #[test]
 fn uniform_stream_between_velocity_faces_and_mirrors_stays_uniform() {
-    // Half-way bounce-back adds 6 w ρ c·u, exactly the odd part of the order-2 equilibrium.
+    // Half-way bounce-back adds 6 w ρ c·u, the exact odd part of the order-2 equilibrium.
     let u = [0.05, 0.0, 0.0];
     let open = || Face::Velocity(Profile::Uniform(u));
     let faces = [
@@ -248,7 +248,7 @@ fn free_slip_faces_are_mirrors() {
 
 #[test]
 fn layer_of_solid_cells_is_a_wall_face() {
-    // Cavity with a lid and a mirror: side walls once as faces, once as a layer of cells.
+    // A cavity with a lid and a mirror: side walls once as faces, once as a layer of cells.
     let lid = || Face::Wall([0.05, 0.0, 0.01]);
     let config = Config {
         c_w: Some(0.5),
@@ -320,7 +320,7 @@ fn rest_decides_over_moving_over_velocity_over_mirror_at_edges() {
     );
     assert_eq!(towards([2, 0, 1], [1, -1, 0]), Link::Bounce);
     assert_eq!(towards([2, 2, 1], [1, 1, -1]), Link::Bounce);
-    // Leaving (1, 2, 1) along (1, 1, 0) is what a mirror returns from (2, 2, 1) along (−1, 1, 0).
+    // The link that leaves (1, 2, 1) along (1, 1, 0) receives the mirrored population of (2, 2, 1) along (−1, 1, 0).
     let source = domain.index([2, 2, 1]);
     let direction = twin::lattice::direction([-1, 1, 0]);
     let mirror = Link::Mirror {
@@ -342,6 +342,6 @@ fn shear_wave_decays_viscously_from_the_first_step() {
     flow.start(&vec![1.0; n], &u);
     flow.step();
     let loss = 1.0 - flow.macroscopic(n / 4).1[0] / u[n / 4][0];
-    // A start in equilibrium would lose k²/6, as if τ were 1: 5/3 of this. Central differences err by k²/6.
+    // A start in equilibrium would lose k²/6, as for τ = 1: 5/3 of this. Central differences have an error of k²/6.
     assert_relative(loss, config.nu() * k * k, 0.01);
 }

@@ -1,4 +1,5 @@
-//! Boxes in one place, without size, far away, huge: the list is still that of every pair tried; and boxes that are none.
+//! Degenerate boxes: coincident, without size, far away, huge. The list is still the brute-force list, and invalid boxes
+//! are refused.
 
 use super::{Finders, on_host};
 use kit::{
@@ -21,7 +22,7 @@ fn everything_in_one_place() {
     assert_eq!(agree(&points), 307 * 306 / 2);
 }
 
-/// Nothing is compared in cells of one group: 10¹⁰ comparisons would be noticed.
+/// Boxes in cells of a single group are not compared: 10¹⁰ comparisons would be noticeable.
 #[test]
 fn everything_of_one_group() {
     let boxes = vec![item([-3.0; 3], [0.5; 3], 4); 100_000];
@@ -52,7 +53,7 @@ fn a_gap_that_f32_does_not_see_is_a_gap() {
     assert_eq!(agree(&boxes), 0);
 }
 
-/// Terrain of 10 km, gravel of 1 cm on one spot of it, and a rock between.
+/// Terrain of 10 km, gravel of 1 cm at one spot of it, and a rock of 1 m among it.
 #[test]
 fn gravel_on_terrain() {
     let mut random = Random(12);
@@ -78,7 +79,7 @@ fn far_away_and_next_to_nothing() {
     agree(&boxes);
 }
 
-/// Every level at once: each box holds all smaller ones.
+/// All levels at once: each box contains all smaller ones.
 #[test]
 fn nested_boxes_of_all_sizes() {
     let boxes: Vec<_> = (0..191)
@@ -90,7 +91,7 @@ fn nested_boxes_of_all_sizes() {
     assert_eq!(agree(&boxes), 191 * 190 / 2);
 }
 
-/// Thin plates in a stack: each cell holds many.
+/// Thin plates and needles: each cell contains many.
 #[test]
 fn plates_and_needles() {
     let mut random = Random(13);
@@ -105,7 +106,7 @@ fn plates_and_needles() {
     agree(&boxes);
 }
 
-/// Boxes that are none are refused by every finder with the same message.
+/// Every broadphase refuses invalid boxes with a message that names the box.
 #[test]
 fn corners_that_are_none_are_refused() {
     let mut finders = Finders::new();

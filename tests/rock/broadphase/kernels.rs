@@ -1,4 +1,4 @@
-//! Each kernel of the search against the same formula in f64 and integers.
+//! Each kernel of the broadphase against the same formula in f64 and integers.
 
 use kit::{
     POISON, Workbench,
@@ -15,7 +15,7 @@ use riprap::{
 };
 use std::{collections::BTreeMap, mem::offset_of};
 
-/// The cell of a lower corner, from the edge of a cell in m.
+/// The cell of a lower corner, from the edge length of a cell in m.
 fn cell(corner: [f32; 3], level: &Level) -> [i64; 3] {
     let edge = 1.0 / f64::from(level.scale);
     corner.map(|x| (f64::from(x) / edge).floor() as i64)
@@ -37,7 +37,7 @@ fn bucket(cell: [i64; 3], level: u32, buckets: u64) -> u64 {
     (64 * h + 16 * inside[2] + 4 * inside[1] + inside[0]) % buckets
 }
 
-/// Boxes, and the numbers of those in each of `buckets`.
+/// Boxes, and the indices of those in each of the `buckets`.
 struct Binned {
     boxes: Boxes,
     buckets: u64,
@@ -146,7 +146,7 @@ fn bin_scatter() {
     }
 }
 
-/// Slices of three candidates, so that most boxes need several; the list in parts.
+/// Slices of three candidates, so that most boxes need several, and a list in parts.
 #[test]
 fn pairs_are_counted_and_written_in_slices_and_parts() {
     let items = scattered(499, 100.0, 3);
@@ -211,7 +211,7 @@ fn pairs_are_counted_and_written_in_slices_and_parts() {
             let here = part.min(total as usize - found.len());
             let list: Vec<[u32; 2]> = bench.read(&list);
             found.extend(&list[..here]);
-            // Nothing behind the last pair.
+            // Nothing is written behind the last pair.
             assert!(list[here..].iter().all(|pair| *pair == [POISON; 2]));
         }
         // f32 boxes may touch where the exact ones just miss each other.
@@ -226,7 +226,7 @@ fn pairs_are_counted_and_written_in_slices_and_parts() {
     }
 }
 
-/// What the host writes and reads lies as the kernels have it.
+/// The structs of the host have the layout of the kernels.
 #[test]
 fn layouts() {
     let boxes = [

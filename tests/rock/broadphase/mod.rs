@@ -1,4 +1,4 @@
-//! Every finder of pairs gives the list that follows from the definition.
+//! Every broadphase returns the list that follows from the definition.
 
 mod degenerate;
 mod kernels;
@@ -12,7 +12,7 @@ use riprap::{
     wgpu,
 };
 
-/// The finders side by side.
+/// The broadphase on the device, for comparison with that on the host.
 struct Finders {
     rig: Rig,
     device: DeviceBroadphase,
@@ -34,7 +34,7 @@ impl Finders {
         }
     }
 
-    /// The list of the device, which is that of the host.
+    /// The list of the device; asserts that the host finds the same.
     fn pairs(&mut self, items: &[Aabb]) -> Vec<[u32; 2]> {
         let found = self.rig.wait(self.device.pairs(items)).unwrap();
         let host = on_host(items).unwrap();

@@ -1,9 +1,9 @@
-//! The scan: each value becomes the sum of all before it.
+//! The scan (exclusive prefix sum): each value becomes the sum of all values before it.
 
 use kit::{Workbench, broadphase::Random};
 use riprap::gpu::{bins::Scan, link::Program};
 
-/// In integers that cannot pass their end.
+/// The same in integers that cannot overflow.
 fn twin(values: &[u32]) -> (Vec<u32>, u32) {
     let mut sum = 0u64;
     let cut = |sum: u64| sum.min(u32::MAX.into()) as u32;
@@ -21,7 +21,7 @@ fn numbers(count: usize, below: u32) -> Vec<u32> {
     (0..count).map(|_| random.bits() % below).collect()
 }
 
-/// The scans of some values after each other, in one buffer.
+/// Scans of several sets of values one after the other, in one buffer.
 fn scanned<const N: usize>(bench: &Workbench, rounds: [&[u32]; N]) -> [(Vec<u32>, u32); N] {
     let device = &bench.rig.device;
     let scan = Scan::new(device).unwrap();
@@ -40,7 +40,7 @@ fn scanned<const N: usize>(bench: &Workbench, rounds: [&[u32]; N]) -> [(Vec<u32>
 #[test]
 fn adds_all_before() {
     let bench = Workbench::new(None);
-    // One value; a run and its neighbours; runs of runs; a prime of runs of runs of runs.
+    // One value; a run of 64 and its neighbours; 64 runs and their neighbours; 64³ values; a larger prime.
     for count in [1, 2, 63, 64, 65, 4095, 4096, 4097, 262_144, 300_007] {
         let values = numbers(count, 1000);
         assert!(

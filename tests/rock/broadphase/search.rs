@@ -1,4 +1,5 @@
-//! The lists of host and device are those of every pair tried, bit for bit, within the device's limits and on any threads.
+//! The lists of host and device equal the brute-force list, bit for bit, within the device's limits and on any number of
+//! threads.
 
 use super::{Finders, on_host};
 use kit::{
@@ -26,7 +27,7 @@ fn the_device_finds_what_brute_force_finds() {
     }
 }
 
-/// Buckets are filled in an order that nobody promises; the list is the same.
+/// The order in which buckets are filled is undefined; the list is the same.
 #[test]
 fn the_list_is_the_same_each_time() {
     let items = scattered(2003, 100.0, 8);
@@ -37,7 +38,7 @@ fn the_list_is_the_same_each_time() {
 }
 
 /// 70 000 fixed boxes in one cell and a small one: nine times as many candidates as an invocation
-/// takes, more than the 65 535 turns after which lavapipe ends loops.
+/// compares, more than the 65 535 iterations after which lavapipe ends loops.
 #[test]
 fn a_box_may_have_more_candidates_than_loops_may_have_turns() {
     let mut items = vec![item([0.0; 3], [1.0; 3], 0); 70_000];
@@ -47,8 +48,8 @@ fn a_box_may_have_more_candidates_than_loops_may_have_turns() {
     assert!(found.iter().zip(0..).all(|(pair, n)| *pair == [n, 70_000]));
 }
 
-/// As many items with few pairs, many, few again: room is made when it is needed, and what is left
-/// in it from before does no harm.
+/// The same number of items with few pairs, many, few again: the buffers grow when needed, and earlier
+/// contents do no harm.
 #[test]
 fn room_for_pairs_grows() {
     let mut finders = Finders::new();
@@ -73,14 +74,14 @@ fn a_list_longer_than_a_binding_comes_in_parts() {
     let mut finders = Finders::with_limits(limits.clone());
     let items: Vec<_> = (0..400).map(|n| item([0.0; 3], [1.0; 3], n)).collect();
     assert_eq!(finders.pairs(&items).len(), 79_800);
-    // Boxes cannot be cut.
+    // The boxes cannot be split into parts.
     let items = scattered(5000, 1.0, 1);
     let mut finder = Finders::with_limits(limits);
     let refused = finder.rig.wait(finder.device.pairs(&items)).unwrap_err();
     assert!(matches!(refused, Error::Limit { .. }), "{refused}");
 }
 
-/// What WebGPU promises everywhere is enough.
+/// The limits that WebGPU guarantees everywhere are sufficient.
 #[test]
 fn promised_limits_suffice() {
     let mut finders = Finders::with_limits(wgpu::Limits::default());

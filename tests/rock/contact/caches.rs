@@ -1,4 +1,4 @@
-//! Caches and used resolvers save time and change nothing; a pair that is apart keeps a plane that shows it.
+//! Caches and used resolvers save time and change no result; the cache of a pair that is apart keeps a separating plane.
 
 use glam::{DQuat, DVec3};
 use kit::{
@@ -7,7 +7,7 @@ use kit::{
 };
 use riprap::rock::contact::{Cache, Options, Resolver, Verdict};
 
-/// Pairs that move through contact and out of it, each step with the cache and without.
+/// Pairs that move into contact and out of it, each step with the cache and without.
 #[test]
 fn a_moving_pair_is_the_same_cold_and_warm() {
     let mut random = Random(11);
@@ -46,7 +46,7 @@ fn a_moving_pair_is_the_same_cold_and_warm() {
     assert!(warm.programs * 5 < cold.programs, "{warm:?} {cold:?}");
 }
 
-/// A cache of another pair, or of numbers without meaning, costs time at most.
+/// A cache of another pair, or of meaningless numbers, costs time at most.
 #[test]
 fn a_wrong_cache_changes_no_verdict() {
     let mut random = Random(12);
@@ -69,7 +69,7 @@ fn a_wrong_cache_changes_no_verdict() {
     }
 }
 
-/// Threads share out the pairs as it comes: bits must not depend on what a resolver did before.
+/// Pairs are distributed over threads in no fixed order: bits must not depend on what a resolver did before.
 #[test]
 fn a_used_resolver_gives_the_bits_of_a_new_one() {
     let mut random = Random(13);
@@ -118,7 +118,7 @@ fn the_cached_plane_has_each_block_on_its_own_side() {
             between > 0.0,
             "gap {gap} L, along the plane's normal {between} m"
         );
-        // No direction shows more than the distance.
+        // No direction has a larger gap than the distance.
         assert!(between <= gap * couple.length * n.length() + 1e-12 * couple.length);
     }
     assert!(planes > 1500, "{planes}");

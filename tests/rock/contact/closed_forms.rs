@@ -1,4 +1,4 @@
-//! Overlap, area, pressure centre and width against geometry that one can write down.
+//! Overlap, area, pressure centre and width against geometry in closed form.
 
 use super::contact;
 use glam::{DQuat, DVec3};
@@ -28,7 +28,7 @@ fn box_on_box_with_partial_overlap() {
     }
 }
 
-/// A square on a square turned by 45°: a regular octagon, 2(√2 − 1) of the square.
+/// A square on a square rotated by 45°: a regular octagon, 2(√2 − 1) of the square.
 #[test]
 fn turned_square_on_square() {
     let cube = Solid::cube();
@@ -61,8 +61,8 @@ fn edge_across_edge() {
     }
 }
 
-/// A cube's corner pressed into a face: the analytic centre of the little tetrahedron is its centroid,
-/// a quarter up from the face, where its section is a triangle of (3√3/2)(¾u)². The far faces move
+/// A cube's corner pressed into a face: the analytic centre of the small tetrahedron is its centroid,
+/// a quarter of the depth from the face, where its section is a triangle of (3√3/2)(¾u)². The far faces move
 /// the centre by a share u/L.
 #[test]
 fn corner_in_face() {
@@ -82,8 +82,8 @@ fn corner_in_face() {
     }
 }
 
-/// A box that rests an edge on the ground, tilted by 30°: the overlap is a triangular prism, whose
-/// analytic centre is its centroid; width of the section two thirds of the base.
+/// A box that rests with an edge on the ground, tilted by 30°: the overlap is a triangular prism, whose
+/// analytic centre is its centroid; the width of the section is two thirds of the base.
 #[test]
 fn edge_on_face() {
     let (tilt, u) = (30f64.to_radians(), 1e-5);
@@ -95,13 +95,13 @@ fn edge_on_face() {
     let base = u / tilt.tan() + u * tilt.tan();
     assert_near(found.area / (2.0 / 3.0 * base), 1.0, 1e-3);
     assert_near(found.point.z / u, -1.0 / 3.0, 1e-3);
-    // The vertical through the centroid leaves by the flatter face.
+    // The vertical through the centroid leaves through the flatter face.
     assert_near(found.overlap / (2.0 / 3.0 * u), 1.0, 0.01 + 0.5);
     assert_near(found.pressure_centre.y, 0.0, 1e-9);
     assert_near(found.width, 1.0, 1e-4);
 }
 
-/// Blocks 1:100, ground with many faces: only a few rows are kept, and nothing changes.
+/// Blocks 1:100, ground with many faces: only a few rows are kept, and the contact does not change.
 #[test]
 fn box_on_large_ground() {
     let mut random = Random(8);
@@ -123,7 +123,7 @@ fn box_on_large_ground() {
 }
 
 /// A pyramid as flat as 4° pressed tip first into a face: four faces share the contact, and none of
-/// them may take it; the force stays on the axis however the block is turned about it.
+/// them may dominate; the force stays on the axis for any rotation of the block about it.
 #[test]
 fn blunt_tip_in_face() {
     let rise = 0.5 * 4f64.to_radians().tan();

@@ -1,4 +1,4 @@
-//! Exact touch, deep overlap, numbers that are none.
+//! Exact touch, deep overlap, numbers that are not finite.
 
 use super::{contact, verdict};
 use glam::{DQuat, DVec3};
@@ -57,7 +57,7 @@ fn crossing_edges_that_touch_give_no_force() {
     }
 }
 
-/// A contact that touches for a step keeps its history: the point is still there when it closes.
+/// A contact that only touches for a step keeps its cache: the point is still there when it closes.
 #[test]
 fn touch_keeps_the_cache() {
     let cube = Solid::cube();
@@ -86,7 +86,7 @@ fn deep_overlap_is_visible() {
             assert_near(contact.overlap, u, 1e-12);
         }
     }
-    // One in the other, and one where the other is: still an answer.
+    // One block inside the other, and two blocks at the same position still give a contact.
     let small = Solid::cuboid(DVec3::splat(0.2)).at(DVec3::splat(0.1), DQuat::IDENTITY);
     for b in [small, a.clone()] {
         let contact = contact(&a, &b);
@@ -121,7 +121,7 @@ fn a_pose_that_is_not_finite_is_an_error() {
     }
 }
 
-/// Numbers that are wrong in one vertex only: whatever is answered, it is answered.
+/// NaN in a single face or vertex: any verdict is accepted, but the resolver must return.
 #[test]
 fn a_broken_face_does_not_hang() {
     let cube = Solid::cube();

@@ -1,7 +1,7 @@
-//! Laws of a contact on hulls of any points, as flat as 1:20: proptest makes a failing pair smaller.
+//! Properties of contacts for hulls of random points, as flat as 1:20; proptest shrinks a failing pair.
 //!
-//! The oracle is the separating axis theorem: two convex polyhedra are as far apart as along the best of their
-//! faces' normals and the cross products of their edges.
+//! The oracle is the separating axis theorem: the separation of two convex polyhedra is the largest one along the
+//! normals of their faces and the cross products of their edges.
 
 use super::verdict;
 use glam::{DQuat, DVec3};
@@ -9,7 +9,7 @@ use kit::contact::Solid;
 use proptest::prelude::*;
 use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
 
-/// A hull of points of a stretched ball.
+/// A hull of points in a stretched cube.
 fn hull() -> impl Strategy<Value = Solid> {
     let point = prop::array::uniform3(-1.0..1.0_f64).prop_map(DVec3::from_array);
     let stretch = prop::array::uniform3(-3.0..0.0_f64).prop_map(|s| DVec3::from_array(s).exp());
@@ -42,7 +42,7 @@ fn rotation() -> impl Strategy<Value = DQuat> {
     })
 }
 
-/// A gap, or an overlap below zero, whose size may be anything from 1e-8 on.
+/// A gap, or an overlap if negative, of any size from 1e-8.
 fn gap() -> impl Strategy<Value = f64> {
     (-8.0..-1.5_f64, any::<bool>()).prop_map(|(size, apart)| {
         let size = 10f64.powf(size);
@@ -50,7 +50,7 @@ fn gap() -> impl Strategy<Value = f64> {
     })
 }
 
-/// Directions of the edges, each once.
+/// Cross products of all pairs of face normals, which include the directions of all edges.
 fn edges(block: &Placed) -> Vec<DVec3> {
     let mut found: Vec<DVec3> = Vec::new();
     let faces = &block.faces;
@@ -65,7 +65,7 @@ fn edges(block: &Placed) -> Vec<DVec3> {
     found
 }
 
-/// How far apart, and along what, from the first to the second; negative if they overlap.
+/// Separation, negative if the blocks overlap, and its axis from the first to the second.
 fn separation(first: &Placed, second: &Placed) -> (f64, DVec3) {
     let reach = |block: &Placed, n: DVec3| {
         let heights = block.vertices.iter().map(|v| n.dot(*v));
@@ -93,7 +93,7 @@ fn separation(first: &Placed, second: &Placed) -> (f64, DVec3) {
     best
 }
 
-/// Moves the second block until the two are `gap` apart; none if they pass each other by.
+/// Moves the second block until the two are `gap` apart; `None` if that fails.
 fn closed(first: &Placed, mut second: Placed, gap: f64) -> Option<Placed> {
     for _ in 0..40 {
         let (apart, n) = separation(first, &second);
@@ -113,8 +113,8 @@ fn cached(first: &Placed, second: &Placed, cache: &mut Cache) -> Verdict {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Contact if and only if no axis separates; with a point that is inside both; the same with the blocks in the
-    /// other order, and with what is remembered of where they were.
+    /// Contact if and only if no axis separates, with a point inside both blocks. The same with the blocks in the
+    /// other order, and with the cache of another position.
     #[test]
     fn contact_if_and_only_if_no_axis_separates(
         solids in (hull(), hull()),
@@ -146,7 +146,7 @@ proptest! {
             (a, b) => prop_assert_eq!(a, b),
         }
 
-        // Somewhere near, with and without memory.
+        // At a nearby position, with and without a cache.
         let mut near = second.clone();
         near.centre += DVec3::from_array(step) * 3.0 * gap.abs();
         let (apart, _) = separation(&first, &near);

@@ -13,7 +13,7 @@ mod volume;
 
 use riprap::rock::contact::{Cache, ContactGeometry, Options, Placed, Resolver, Verdict};
 
-/// What a new resolver without a cache finds.
+/// Verdict of a new resolver without a cache.
 fn verdict(a: &Placed, b: &Placed) -> Verdict {
     let mut resolver = Resolver::new(Options::default());
     let found = resolver.resolve(a, b, &mut Cache::default());

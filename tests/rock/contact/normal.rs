@@ -9,7 +9,7 @@ use glam::{DQuat, DVec3};
 use kit::contact::{Couple, Random, Solid};
 use riprap::rock::contact::{Cache, ContactGeometry, Normal, Options, Placed, Resolver, Verdict};
 
-/// Multipliers of the linear program, the first block's first, and their normal Σ z a over it.
+/// Multipliers of the linear program, those of the first block first, and the normal Σ z a over the first block.
 fn dual(a: &Placed, b: &Placed, length: f64) -> (Vec<f64>, DVec3) {
     let (mut columns, mut bounds) = (vec![Vec::new(); 4], Vec::new());
     for block in [a, b] {
@@ -53,7 +53,7 @@ fn dual(a: &Placed, b: &Placed, length: f64) -> (Vec<f64>, DVec3) {
 }
 
 /// Angle (rad) between the contact normal and the dual one, and the weight of the faces that the program
-/// leaves out, Σ 1/t over them by |Σ a/t| over the first block.
+/// leaves out: Σ 1/t over these faces, divided by |Σ a/t| over the first block.
 struct Tilt {
     angle: f64,
     left_out: f64,
@@ -86,14 +86,14 @@ fn tilts(overlap: f64) -> Vec<Tilt> {
     (0..600).map(tilt).collect()
 }
 
-/// Values at 50, 90 and 99 %.
+/// Quantiles at 50, 90 and 99 %.
 fn quantiles(values: impl Iterator<Item = f64>) -> [f64; 3] {
     let mut sorted: Vec<_> = values.collect();
     sorted.sort_by(f64::total_cmp);
     [50, 90, 99].map(|percent| sorted[sorted.len() * percent / 100])
 }
 
-/// Faces far from the overlap turn the barrier's normal by a share of overlap over the extent of the
+/// Faces far from the overlap tilt the barrier's normal in proportion to the overlap over the extent of the
 /// contact. Random polyhedra include contacts about to change from face to edge, hence the tail.
 #[test]
 fn tends_to_the_dual_normal_with_the_overlap() {
@@ -113,15 +113,15 @@ fn tends_to_the_dual_normal_with_the_overlap() {
     }
 }
 
-/// What turns the normal away from the dual one is all in the faces that the program leaves out and the
-/// barrier does not: a contact near an edge that takes no part in it yet. So the tail is the same, in
-/// units of their weight, from thick to thin overlaps.
+/// The tilt from the dual normal comes entirely from the faces that the program leaves out and the
+/// barrier includes, such as those at a nearby edge that does not take part in the contact yet. The tail is
+/// therefore the same for thick and thin overlaps, in units of the weight of these faces.
 #[test]
 fn the_tilt_from_the_dual_normal_is_the_weight_of_the_faces_left_out() {
     for overlap in [1e-3, 1e-4, 1e-6] {
         let tilts = tilts(overlap);
         let shares = quantiles(tilts.iter().map(|tilt| tilt.angle / tilt.left_out));
-        // Measured at each overlap: 0.19, 0.61 and 0.99; more than one where the faces that take part are
+        // Measured at each overlap: 0.19, 0.61 and 0.99; more than one if the faces that take part are
         // nearly parallel.
         assert!(
             shares[0] < 0.25 && shares[1] < 0.75 && shares[2] < 1.25,
@@ -144,7 +144,7 @@ fn swapping_the_blocks_turns_the_normal_and_keeps_every_bit() {
                 couple.solids[1] = couple.solids[0].clone();
             }
             let (mut cache, mut other) = (Cache::default(), Cache::default());
-            // The caches take part: five steps of a small motion.
+            // Five steps of a small motion, with caches.
             for _ in 0..5 {
                 couple.centres[1] += random.vector() * 1e-4 * overlap;
                 let [a, b] = couple.placed();
@@ -166,7 +166,7 @@ fn swapping_the_blocks_turns_the_normal_and_keeps_every_bit() {
     }
 }
 
-/// Box on box, shifted so that the analytic centre is nowhere near the middle.
+/// Box on box, shifted so that the analytic centre is far from the middle.
 #[test]
 fn flat_faces_give_their_own_normal() {
     let cube = Solid::cube();

@@ -1,4 +1,4 @@
-//! Where the pressure of edges and corners acts: line by line, and without jumps.
+//! Pressure centre of edge and corner contacts: against integration line by line, and without jumps.
 
 use super::{contact, verdict};
 use glam::{DQuat, DVec3};
@@ -11,7 +11,7 @@ use riprap::{
     rock::contact::{ContactGeometry, Placed, Verdict},
 };
 
-/// Way from `x` along `n` to where it leaves the block; none outside.
+/// Distance from `x` along `n` to the surface of the block; `None` outside.
 fn way(block: &Placed, x: DVec3, n: DVec3) -> Option<f64> {
     let mut way = f64::INFINITY;
     for face in &block.faces {
@@ -27,8 +27,8 @@ fn way(block: &Placed, x: DVec3, n: DVec3) -> Option<f64> {
     Some(way)
 }
 
-/// Area of the section across the normal, and the centroid of the way through the overlap over it, by the
-/// midpoint rule.
+/// Area of the section perpendicular to the normal, and the centroid of the distance through the overlap over
+/// it, by the midpoint rule.
 fn brute_force(a: &Placed, b: &Placed, contact: &ContactGeometry) -> (f64, DVec3) {
     const CELLS: i32 = 301;
     let step = 2.0 * contact.width / f64::from(CELLS);
@@ -56,7 +56,7 @@ fn acts_in_the_centroid_of_the_overlap_over_the_section() {
         let overlap = random.magnitude(1e-3, 0.05);
         let couple = Couple::random(&mut random, 1.0, -overlap);
         let [a, b] = couple.placed();
-        // Faces that lie on each other, up to 10°, have a section of their own.
+        // Faces that lie on each other, up to 10°, use a different section.
         let flat = 10f64.to_radians().cos();
         let faces = |f: &HalfSpace| b.faces.iter().any(|g| -f.normal.dot(g.normal) > flat);
         if a.faces.iter().any(faces) {
@@ -76,8 +76,8 @@ fn acts_in_the_centroid_of_the_overlap_over_the_section() {
     assert!(found > 100, "{found}");
 }
 
-/// A cube that stands on an edge, tilted, its sides upright: that a side leans in or out by the last bit
-/// moves nothing.
+/// A tilted cube that stands on an edge, with upright sides: a side that leans in or out by the last bit
+/// does not change the contact.
 #[test]
 fn does_not_jump_when_a_face_beside_it_passes_through_upright() {
     let cube = Solid::cube();

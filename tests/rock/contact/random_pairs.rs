@@ -1,4 +1,4 @@
-//! Random pairs: contact or not, the point of contact, and that place, rotation and unit do not matter.
+//! Random pairs: contact or not, the contact point, and independence of position, rotation and unit of length.
 
 use super::{contact, verdict};
 use glam::{DMat3, DQuat, DVec3};
@@ -6,7 +6,7 @@ use kit::contact::{Couple, Random, Solid};
 use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
 
 /// Boxes with parallel edges, of sizes up to 1:30 and as flat as 1:20, whose sides, edges and corners
-/// line up or not: an interval an axis says whether they overlap.
+/// line up or not: one interval per axis decides whether they overlap.
 #[test]
 fn agrees_with_intervals_for_aligned_boxes() {
     let mut random = Random(19);
@@ -52,7 +52,7 @@ fn agrees_with_intervals_for_aligned_boxes() {
     assert!(seen.iter().all(|n| *n > 300), "one-sided: {seen:?}");
 }
 
-/// Newton's decrement λ² of −Σ log(slack) at `x`, and the smallest slack, from the blocks as they are.
+/// Newton's decrement λ² of −Σ log(slack) at `x`, and the smallest slack, from the unscaled blocks.
 fn decrement(blocks: [&Placed; 2], x: DVec3) -> (f64, f64) {
     let (mut gradient, mut hessian) = (DVec3::ZERO, DMat3::ZERO);
     let mut least = f64::INFINITY;
@@ -84,7 +84,7 @@ fn the_gradient_vanishes_and_both_blocks_hold_the_point() {
         contacts += 1;
         let (square, least) = decrement([&a, &b], contact.point);
         assert!(least > 0.0, "outside by {least} m");
-        // The last step leaves λ² below 1e-10; slacks of 1e-5 L formed anew are good to 1e-11.
+        // The last step leaves λ² below 1e-10; recomputed slacks of 1e-5 L are accurate to 1e-11.
         assert!(square < 1e-10, "λ² = {square} at an overlap of {overlap} L");
     }
     assert!(contacts > 1000);
@@ -128,7 +128,7 @@ fn contact_is_the_same_anywhere_and_at_any_size() {
             }
         }
     }
-    // Coordinates of 100 L cost 1e-14 L, a share of 1e-11 of the overlap; the centre is left at λ of
-    // at most 1e-10 by its quadratic last step.
+    // Coordinates of 100 L cost 1e-14 L, a share of 1e-11 of the overlap; the quadratic last step leaves the
+    // centre at λ of at most 1e-10.
     assert!(worst < 1e-8, "{worst}");
 }

@@ -42,7 +42,7 @@ fn blocks() -> Vec<Placed> {
     placed.collect()
 }
 
-/// No force before anything has moved, and no linear program: the common face is proof.
+/// No force before any motion, and no linear program: the common face is proof.
 #[test]
 fn coinciding_faces_touch() {
     let blocks = blocks();
@@ -76,6 +76,6 @@ fn coinciding_faces_touch() {
     assert_eq!(deepest, 0.0);
     assert!(touching > 2 * 4000, "{touching}");
     assert_eq!((first.programs, first.guesses), (0, first.pairs));
-    // Nothing moved: each plane is still there.
+    // Nothing moved: each cached plane is still valid.
     assert_eq!((counts.programs, counts.planes), (0, first.pairs));
 }

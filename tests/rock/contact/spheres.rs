@@ -38,7 +38,7 @@ fn spheres_apart_and_touching() {
         1e-9,
         1e-15,
     );
-    // One in the other: finite, and deep.
+    // One sphere inside the other: finite, and deep.
     for centre in [DVec3::ZERO, DVec3::X * 0.1] {
         let inside = contact(&a, &ball(0.5, centre));
         assert!(inside.is_deep() && inside.point.is_finite() && inside.normal.is_normalized());

@@ -1,11 +1,11 @@
-//! Face contacts against the volume of overlap, measured line by line.
+//! Face contacts against the volume of overlap, integrated line by line.
 
 use super::contact;
 use glam::{DQuat, DVec3};
 use kit::contact::{Random, Solid};
 use riprap::rock::contact::{Cache, Options, Placed, Resolver, Verdict};
 
-/// Length in both blocks of the vertical through (x, y).
+/// Length inside both blocks of the vertical line through (x, y).
 fn chord(blocks: [&Placed; 2], x: f64, y: f64) -> f64 {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     for block in blocks {
@@ -43,8 +43,8 @@ fn brute_force(blocks: [&Placed; 2]) -> (f64, f64, f64) {
     (volume, x_moment / volume, y_moment / volume)
 }
 
-/// Boxes that lie on each other with a tilt of some 1e-4, as blocks that rock do: area times overlap
-/// is the volume, and the pressure acts in its centroid, so that the force is that of an elastic bed.
+/// Boxes that lie on each other with a tilt of some 1e-4, as rocking blocks do: area times overlap
+/// is the volume, and the pressure acts at its centroid, so that the force is that of an elastic bed.
 #[test]
 fn tilted_face_contact_is_an_elastic_bed() {
     let mut random = Random(9);
@@ -57,7 +57,7 @@ fn tilted_face_contact_is_an_elastic_bed() {
         let b = block.at(side + DVec3::Z * (0.45 - 1e-4), turn);
         let contact = contact(&a, &b);
         let (volume, x, y) = brute_force([&a, &b]);
-        // The midpoint rule errs at the edges by a cell's share.
+        // The midpoint rule has an error of part of a cell at the edges.
         let error = contact.area * contact.overlap / volume - 1.0;
         assert!(
             error.abs() < 0.01,
@@ -65,13 +65,13 @@ fn tilted_face_contact_is_an_elastic_bed() {
         );
         let off = contact.pressure_centre.truncate() - glam::DVec2::new(x, y);
         assert!(off.length() < 3e-3, "round {round}: {off}");
-        // Between the faces' normals.
+        // The normal is between those of the faces.
         assert!(contact.normal.cross(DVec3::Z).length() < tilt.length() + 1e-4);
     }
 }
 
-/// From flat to standing on an edge: force and lever arm, area × overlap and pressure centre, have no
-/// jump anywhere, and up to 5° they are exact.
+/// From flat to standing on an edge: force and lever arm, area × overlap and pressure centre, are
+/// continuous, and up to 5° they are exact.
 #[test]
 fn rocking_is_continuous() {
     let mut resolver = Resolver::new(Options::default());

@@ -1,5 +1,5 @@
-// McCalpin 1995, STREAM, the copy test: every value is read once and written once, 64 bytes an invocation,
-// 16 of them beside those of its neighbour.
+// McCalpin 1995, STREAM, the copy test: every value is read once and written once, 64 bytes per invocation,
+// in pieces of 16 bytes that are contiguous over neighbouring invocations.
 
 @group(0) @binding(0) var<storage, read> original: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read_write> duplicate: array<vec4<f32>>;

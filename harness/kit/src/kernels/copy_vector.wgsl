@@ -1,4 +1,4 @@
-// McCalpin 1995, STREAM, the copy test: every value is read once and written once, 16 bytes an invocation.
+// McCalpin 1995, STREAM, the copy test: every value is read once and written once, 16 bytes per invocation.
 
 @group(0) @binding(0) var<storage, read> original: array<vec4<f32>>;
 @group(0) @binding(1) var<storage, read_write> duplicate: array<vec4<f32>>;

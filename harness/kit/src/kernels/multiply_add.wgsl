@@ -1,5 +1,5 @@
-// Williams, Waterman & Patterson 2009, Commun. ACM 52:65, Roofline: the ceiling of arithmetic. Products and sums of
-// eight vectors an invocation that do not wait for each other, and one store.
+// Williams, Waterman & Patterson 2009, Commun. ACM 52:65, Roofline: the ceiling of arithmetic. Independent products and
+// sums of eight vectors per invocation, and one store.
 
 override TURNS: u32;
 

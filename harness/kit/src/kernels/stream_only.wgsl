@@ -1,5 +1,5 @@
-// Lehmann 2022, Computation 10(6):92, Esoteric-Pull: streaming without collision. The traffic of a step is all
-// there, its arithmetic is not: what no collision kernel of the same layout can beat.
+// Lehmann 2022, Computation 10(6):92, Esoteric-Pull: streaming without collision. The memory traffic of a step without
+// its arithmetic: a bound that no collision kernel of the same layout can beat.
 // needs stream, $bricks, workgroup
 
 @compute @workgroup_size(WORKGROUP)

@@ -1,19 +1,19 @@
-//! A law of the wall in the place of no slip on the faces of blocks that lie along the grid.
+//! A wall law instead of no slip on faces of blocks parallel to the grid.
 
 use super::lattice::{C, Q, W, macroscopic};
 use super::wall_model::{norm, share};
 use super::{Solid, Twin};
 
-/// Cells of fluid before a face; the law reads the velocity of the last one.
+/// Cells of fluid in front of a face; the law reads the velocity of the last one.
 const DEPTH: usize = 5;
-/// Solid fraction of a full cell.
+/// Solid fraction from which a cell counts as full.
 const FULL: f64 = 0.999;
 /// Largest difference of solid fractions along a face.
 const SLOPE: f64 = 0.1;
-/// What is left of the mixing length from half a cell on, a cell apart.
+/// Taper of the mixing length at heights from half a cell on, in steps of a cell.
 const TAPER: [f64; 6] = [1.0, 0.75, 0.4, 0.15, 0.0, 0.0];
 
-/// A face of a block, of a full cell.
+/// A face of a block: one of the faces of a full cell.
 #[derive(Clone, Copy, Debug)]
 struct BlockFace {
     cell: usize,
@@ -22,14 +22,14 @@ struct BlockFace {
     out: i32,
 }
 
-/// What the law says of a face.
+/// Friction on a face by the law.
 #[derive(Clone, Copy, Debug)]
 struct Friction {
     face: BlockFace,
-    /// Over the density, along the face.
+    /// Stress along the face over the density.
     stress: [f64; 3],
     friction: f64,
-    /// Of the law: 0 without slip, 1 all.
+    /// Share of the law: 0 for no slip, 1 for the law alone.
     share: f64,
 }
 
@@ -39,13 +39,13 @@ impl Twin {
         own.filter(|own| own.shares > 0.0).unwrap_or_default()
     }
 
-    /// Solid fraction of the neighbour in a direction; 0 of one that is not fluid.
+    /// Solid fraction of the neighbour in a direction; 0 if it is not fluid.
     fn fraction_of(&self, cell: usize, axis: usize, out: i32) -> f64 {
         let other = self.domain.fluid_neighbour(cell, axis, out);
         other.map_or(0.0, |other| self.block_at(other).fraction)
     }
 
-    /// The face of a full cell where the law acts.
+    /// The face of a full cell, if the law acts on it.
     fn face_of_block(&self, cell: usize) -> Option<BlockFace> {
         let here = self.block_at(cell);
         let sides = || (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]);
@@ -74,7 +74,7 @@ impl Twin {
         Some(BlockFace { cell, axis, out })
     }
 
-    /// The cells before a face, with their heights over it.
+    /// The cells in front of a face, with their heights above it.
     fn cells_before(&self, face: BlockFace) -> [(usize, f64); DEPTH] {
         let (mut at, mut fraction) = (face.cell, 0.0);
         std::array::from_fn(|k| {
@@ -104,26 +104,27 @@ impl Twin {
         })
     }
 
-    /// Of a full cell under a face.
+    /// The friction on the face of a full cell.
     fn friction_in(&self, cell: usize) -> Option<Friction> {
         self.wall_model.as_ref().filter(|model| model.on_blocks)?;
         self.friction_under(self.face_of_block(cell)?)
     }
 
-    /// The cells under faces of blocks where the law acts, with its stress over the density and its part.
+    /// The cells under faces of blocks where the law acts, with its stress over the density and its share.
     pub fn block_faces(&self) -> Vec<(usize, [f64; 3], f64)> {
         let faces = (0..self.f.len()).filter_map(|cell| self.friction_in(cell));
         let of = |law: Friction| (law.face.cell, law.stress, law.share);
         faces.map(of).collect()
     }
 
-    /// The part of the law in a full cell, which the solid fills entirely.
+    /// The share of the law in a full cell, 0 without a face where it acts.
     pub(super) fn part_of_law(&self, cell: usize) -> f64 {
         self.friction_in(cell).map_or(0.0, |law| law.share)
     }
 
-    /// Puts the stress of the law into the change by the solid in a cell, where the block moves with `v`. Under a face, of the momentum P
-    /// along it that arrives P − τ returns, and the other directions leave with ρ v; a cell that the face cuts exchanges none.
+    /// Adds the stress of the law to the change by the solid in a cell, where the block moves with `v`. In the cell under a face,
+    /// of the momentum P along it that arrives P − τ returns, and the other directions leave with ρ v; a cell that the face
+    /// cuts exchanges none.
     pub(super) fn apply_wall_stress(&self, cell: usize, v: [f64; 3], change: &mut [f64; Q]) {
         let own = self.friction_in(cell);
         let fraction = self.block_at(cell).fraction;
@@ -151,7 +152,7 @@ impl Twin {
             let wanted = match own {
                 Some(_) => [rho * v[t] / 6.0, rho * v[t] / 1.5, arriving - law.stress[t]],
                 None => {
-                    // The same for all directions by their weights.
+                    // Distributed over all directions by their weights.
                     let all: f64 = now.iter().sum();
                     let before = sum(&|i| f[i]);
                     [6.0, 1.5, 6.0].map(|part| (before - all) / part)
@@ -168,7 +169,7 @@ impl Twin {
         }
     }
 
-    /// Raises the eddy viscosity of the cells before faces of blocks to that of the mixing length.
+    /// Raises the eddy viscosity of the cells in front of faces of blocks to that of the mixing length.
     pub(super) fn add_near_blocks(&self, near_wall: &mut [f64]) {
         for law in (0..self.f.len()).filter_map(|cell| self.friction_in(cell)) {
             for (cell, y) in self.cells_before(law.face) {

@@ -1,4 +1,4 @@
-//! Grid, faces, solids, and what becomes of a population that leaves a cell.
+//! Grid, faces, solids, and the links along which populations leave a cell.
 
 use super::lattice::{C, OPPOSITE, Q, direction};
 
@@ -7,14 +7,14 @@ use super::lattice::{C, OPPOSITE, Q, direction};
 pub enum Profile {
     /// The same everywhere.
     Uniform([f64; 3]),
-    /// One value a cell of the face, the lower of the two other axes running fastest.
+    /// One value per cell of the face, the lower of the two other axes running fastest.
     Table(Vec<[f64; 3]>),
 }
 
 /// One side of the domain.
 #[derive(Clone, Debug)]
 pub enum Face {
-    /// Joined to the opposite face, which must be periodic too.
+    /// Connected to the opposite face, which must be periodic too.
     Periodic,
     /// No-slip wall, half a cell beyond the last centres; at rest when the velocity is zero.
     Wall([f64; 3]),
@@ -24,10 +24,10 @@ pub enum Face {
     FreeSlip,
 }
 
-/// What arrives at a cell in place of the population that left it in some direction.
+/// Source of the population that arrives at a cell in place of one that left it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Link {
-    /// The neighbour is fluid: its population that comes the other way.
+    /// The neighbour is fluid: its population of the opposite direction.
     Fluid(usize),
     /// Half-way bounce-back off a wall at rest.
     Bounce,
@@ -35,14 +35,14 @@ pub enum Link {
     Moving([f64; 3]),
     /// Population `direction` of `cell`, reflected by free-slip faces.
     Mirror {
-        /// Where it comes from.
+        /// Cell of the population.
         cell: usize,
-        /// Its index there.
+        /// Direction of the population there.
         direction: usize,
     },
 }
 
-/// The grid and its borders.
+/// The grid and its boundaries.
 #[derive(Clone, Debug)]
 pub struct Domain {
     /// Number of cells along each axis.
@@ -85,7 +85,7 @@ impl Domain {
         [cell % nx, cell / nx % ny, cell / (nx * ny)]
     }
 
-    /// Outward normals along the axes of the walls at rest and solids beside a cell.
+    /// Outward normals, along the axes, of the walls at rest and solids next to a cell.
     pub fn walls_at(&self, cell: usize) -> impl Iterator<Item = [i32; 3]> {
         let bounces = move |c: &[i32; 3]| self.link(cell, direction(*c)) == Link::Bounce;
         let normal = |n: usize| {
@@ -108,7 +108,7 @@ impl Domain {
 
     /// The link that leaves a fluid cell in direction `i`.
     ///
-    /// Where several borders meet, this order decides: solid, wall at rest, moving wall, velocity face, free slip;
+    /// Where several boundaries meet, this order decides: solid, wall at rest, moving wall, velocity face, free slip;
     /// between two of a kind the one on the lower axis.
     /// A link that leaves the domain along a solid, so that it meets the edge between the two, counts as meeting the solid.
     pub fn link(&self, cell: usize, i: usize) -> Link {
@@ -143,7 +143,7 @@ impl Domain {
         }
     }
 
-    /// Where `c` leads without its components that leave the domain, and the faces through which those leave.
+    /// The cell in direction `c` without the components that leave the domain, and the faces through which those leave.
     fn walk(&self, mut position: [usize; 3], c: [i32; 3]) -> ([usize; 3], [Option<usize>; 3]) {
         let mut crossed = [None; 3];
         for axis in 0..3 {
@@ -172,7 +172,7 @@ impl Domain {
         }
     }
 
-    /// Links of all cells, 27 a cell; those of solid cells have no meaning.
+    /// Links of all cells, 27 per cell; those of solid cells have no meaning.
     pub fn links(&self) -> Vec<[Link; Q]> {
         (0..self.cell_count())
             .map(|cell| std::array::from_fn(|i| self.link(cell, i)))
@@ -180,7 +180,7 @@ impl Domain {
     }
 }
 
-/// Smaller decides first.
+/// Precedence of a face where several meet: the smallest decides.
 fn rank(face: &Face) -> u32 {
     match face {
         Face::Wall([0.0, 0.0, 0.0]) => 0,

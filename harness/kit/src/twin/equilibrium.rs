@@ -1,11 +1,11 @@
-//! Equilibria, shifted: f̃_i^eq = f_i^eq − w_i, and a start that already carries the viscous stress of its velocity field.
+//! Equilibria, shifted: f̃_i^eq = f_i^eq − w_i, and an initial state that includes the viscous stress of its velocity field.
 
 use super::domain::Domain;
 use super::lattice::{C, Q, W, c_dot};
 use super::rates::{Config, Equilibrium};
 use super::wale::gradient;
 
-/// f̃^eq(ρ, u) of the kind asked for.
+/// f̃^eq(ρ, u) of the given kind.
 pub fn equilibrium(kind: Equilibrium, rho: f64, u: [f64; 3]) -> [f64; Q] {
     match kind {
         Equilibrium::Order2 => order2(rho, u),
@@ -22,7 +22,7 @@ pub fn order2(rho: f64, u: [f64; 3]) -> [f64; Q] {
     })
 }
 
-/// f_i^eq = w_i ρ Π_a [1 + 3 c_a u_a + 9/2 (c_a² − 1/3) u_a²]: the Hermite series that the lattice can carry in full.
+/// f_i^eq = w_i ρ Π_a [1 + 3 c_a u_a + 9/2 (c_a² − 1/3) u_a²]: the full Hermite series of the lattice.
 pub fn product(rho: f64, u: [f64; 3]) -> [f64; Q] {
     std::array::from_fn(|i| {
         let factors: f64 = (0..3)

@@ -1,4 +1,4 @@
-//! A flow in time: collide every cell, then stream.
+//! A flow over time: collide every cell, then stream.
 
 use super::collide::collide;
 use super::domain::{Domain, Link};
@@ -12,28 +12,28 @@ use super::{WallModel, equilibrium, wale};
 pub enum Force {
     /// The same in every cell.
     Uniform([f64; 3]),
-    /// One value a cell.
+    /// One value per cell.
     Field(Vec<[f64; 3]>),
 }
 
 /// State of a flow.
 #[derive(Clone, Debug)]
 pub struct Twin {
-    /// Grid and borders.
+    /// Grid and boundaries.
     pub domain: Domain,
     /// Collision.
     pub config: Config,
     /// Body force.
     pub force: Force,
-    /// How blocks act, and what they leave of each cell; `None`: there are no blocks.
+    /// Solid operator, and the solid in each cell; `None` without blocks.
     pub blocks: Option<(SolidOperator, Vec<Solid>)>,
-    /// Friction of walls at rest by a law of the wall; `None`: they have no slip.
+    /// Wall law on walls at rest; `None` for no slip.
     pub wall_model: Option<WallModel>,
     /// Shifted populations before collision; 0 in solids.
     pub f: Vec<[f64; Q]>,
-    /// Velocity of the step before, which WALE reads.
+    /// Velocity of the step before, for WALE.
     previous_velocity: Option<Vec<[f64; 3]>>,
-    /// Which cells had a block in that step, which the wall model reads; empty before the first one.
+    /// Cells that had a block in that step, for the wall model; empty before the first step.
     blocks_before: Vec<bool>,
     links: Vec<[Link; Q]>,
 }
@@ -54,7 +54,7 @@ impl Twin {
         }
     }
 
-    /// Start anew from ρ and u of each cell (see [`equilibrium::consistent`]).
+    /// Restarts from ρ and u of each cell (see [`equilibrium::consistent`]).
     pub fn start(&mut self, rho: &[f64], u: &[[f64; 3]]) {
         self.f = equilibrium::consistent(&self.domain, &self.config, rho, u);
         self.previous_velocity = None;
@@ -86,7 +86,7 @@ impl Twin {
         self.cells().map(|cell| self.macroscopic(cell).1).collect()
     }
 
-    /// What blocks leave of a cell.
+    /// The solid in a cell.
     pub fn solid_at(&self, cell: usize) -> Solid {
         let Some((_, cells)) = &self.blocks else {
             return Solid::default();
@@ -113,7 +113,7 @@ impl Twin {
         }
     }
 
-    /// Momentum that the water of a full cell has lost to walls at rest along these, when its populations came back.
+    /// Momentum parallel to walls at rest that the fluid of a full cell has lost to them by bounce-back.
     fn lost_to_walls(&self, cell: usize) -> [f64; 3] {
         let mut lost = [0.0; 3];
         let tight = self.tight_at_wall(cell);
@@ -134,7 +134,7 @@ impl Twin {
         lost
     }
 
-    /// Force on a block that has the share `part` of a cell and moves there with `velocity`.
+    /// Force on a block with the share `part` of a cell that moves there with `velocity`.
     pub fn force_on(&self, cell: usize, part: f64, velocity: [f64; 3], tau: f64) -> [f64; 3] {
         let solid = self.solid_at(cell);
         let change = self.solid_change(cell, velocity, tau);
@@ -154,8 +154,8 @@ impl Twin {
         links.any(|link| matches!(link, Link::Bounce | Link::Moving(_)))
     }
 
-    /// Eddy viscosity of every cell in the coming step; 0 in solids and without WALE. Blocks take their share of it,
-    /// because their rotation would have one.
+    /// Eddy viscosity of every cell in the coming step; 0 in solids and without WALE. It is reduced by the solid fraction,
+    /// since the rotation of blocks would contribute to it.
     pub fn nu_t(&self) -> Vec<f64> {
         let Some(c_w) = self.config.c_w else {
             return vec![0.0; self.domain.cell_count()];
@@ -177,7 +177,7 @@ impl Twin {
             .collect()
     }
 
-    /// The velocity that eddy viscosity and wall model read.
+    /// The velocity used by eddy viscosity and wall model.
     fn velocity_before(&self) -> Vec<[f64; 3]> {
         let before = self.previous_velocity.clone();
         before.unwrap_or_else(|| self.velocity())
@@ -191,7 +191,7 @@ impl Twin {
         }
     }
 
-    /// Whether a cell is beside a bounce-back wall, or in or beside a block.
+    /// Whether a cell is next to a bounce-back wall, or in or next to a block.
     pub fn odd_class(&self, cell: usize) -> OddClass {
         if self.solid_at(cell).is_near() {
             return OddClass::Block;
@@ -266,7 +266,7 @@ impl Twin {
             self.blocks_before = cells.iter().map(|cell| cell.fraction > 0.0).collect();
         }
         if let Some(model) = &self.wall_model {
-            // The model acts before the coming step, on what has arrived.
+            // The model acts before the coming step, on the populations that have arrived.
             let (nu, blocks) = (self.config.nu(), &self.blocks_before);
             model.hand_over(&self.domain, nu, &velocity, blocks, &mut self.f);
         }
@@ -280,7 +280,7 @@ impl Twin {
         }
     }
 
-    /// What arrives at a cell. Off moving walls f_ī = f_i* − 6 w_i ρ c_i·u_w (Ladd 1994), with ρ the density that results:
+    /// Populations arriving at a cell. Off moving walls f_ī = f_i* − 6 w_i ρ c_i·u_w (Ladd 1994), with ρ the resulting density:
     /// summing over all directions, ρ = (1 + Σ f̃ without the wall's term) / (1 + 6 Σ w_i c_i·u_w).
     fn stream(&self, collided: &[[f64; Q]], cell: usize) -> [f64; Q] {
         let mut f = [0.0; Q];

@@ -35,8 +35,8 @@ pub fn config() -> Config {
     }
 }
 
-/// Shifted populations of the start: order-2 equilibrium of three crossed shear waves, whatever the collision then
-/// uses, and noise of 5 % of the weights.
+/// Shifted populations of the start: order-2 equilibrium of three crossed shear waves, for any equilibrium of the collision,
+/// and noise of 5 % of the weights.
 pub fn start() -> Vec<[f64; Q]> {
     let domain = Domain::periodic(CELLS);
     (0..domain.cell_count())
@@ -51,7 +51,7 @@ pub fn start() -> Vec<[f64; Q]> {
         .collect()
 }
 
-/// What of a state is compared.
+/// The numbers by which states are compared.
 pub fn fingerprint(f: &[[f64; Q]]) -> Fingerprint {
     let populations = || f.iter().flat_map(|f| (0..Q).map(|i| f[i] + W[i]));
     let probe = Domain::periodic(CELLS).index([3, 2, 1]);

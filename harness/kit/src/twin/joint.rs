@@ -1,18 +1,18 @@
-//! Steady flow along a closed joint, by the populations of its rows: those that come up, stay and come down, added over all else.
+//! Steady flow along a closed joint from a reduced set of populations: up, rest and down in each row, summed over all else.
 
 use super::solid::{DAMPS, third_order_rate};
 use super::{Config, SolidOperator};
 
-/// Shares of 1 in the three directions across a row.
+/// Sums of the lattice weights over the three directions across a row.
 const W: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
-/// Steps after which it is steady.
+/// Steps after which the flow is steady.
 const STEPS: usize = 3000;
 
-/// Flow for each width over −∇(p/ρ) of so many rows between full cells, with B of the momentum.
+/// Flow per width over −∇(p/ρ) of `rows` rows between full cells, with B = `weight` for the momentum.
 pub fn conductance(config: &Config, operator: SolidOperator, rows: usize, weight: f64) -> f64 {
     let rate = 1.0 / config.tau;
     let third = third_order_rate(config, config.tau);
-    // What the solid alone would change of the momentum, shear stress and third moment.
+    // Changes of momentum, shear stress and third moment by the solid alone.
     let solid = match operator {
         SolidOperator::Holdych => [-2.0, 0.0, -2.0],
         SolidOperator::Noble => [-1.0, 0.0, -2.0],
@@ -34,7 +34,7 @@ pub fn conductance(config: &Config, operator: SolidOperator, rows: usize, weight
     for _ in 0..STEPS {
         let before = collided.clone();
         for (n, after) in collided.iter_mut().enumerate() {
-            // What a full cell sends back has turned round; what comes along the joint feels the gradient.
+            // Populations returned by a full cell are reversed; those that come along the joint gain momentum from the gradient.
             let up = match n.checked_sub(1) {
                 Some(below) => before[below][0] + W[0],
                 None => -before[n][2],
@@ -46,7 +46,7 @@ pub fn conductance(config: &Config, operator: SolidOperator, rows: usize, weight
             *after = collide([up, before[n][1] + W[1], down]);
         }
     }
-    // Between two cells along the joint, half of the gradient is still to come.
+    // Between two cells along the joint, half of the gradient's contribution has been added.
     let through = |n: usize| {
         let up = if n + 1 < rows {
             collided[n][0] + 0.5 * W[0]
@@ -63,7 +63,7 @@ pub fn conductance(config: &Config, operator: SolidOperator, rows: usize, weight
     (0..rows).map(through).sum()
 }
 
-/// B of the momentum with which one and two rows let through as much as a slot of the aperture does, by the cubic law.
+/// B of the momentum for one and for two rows with the flow of a slot of the aperture, by the cubic law.
 pub fn weights(config: &Config, operator: SolidOperator, aperture: f64) -> [f64; 2] {
     let wanted = aperture.powi(3) / (12.0 * config.nu());
     [(1, 0.95), (2, 0.98)].map(|(rows, largest)| {

@@ -34,7 +34,7 @@ pub const C: [[i32; 3]; Q] = [
     [1, -1, -1],
 ];
 
-/// Weight of each direction, by the number of its non-zero components.
+/// Weights by the number of non-zero components of a direction.
 pub const W: [f64; Q] = {
     let by_speed = [8.0 / 27.0, 2.0 / 27.0, 1.0 / 54.0, 1.0 / 216.0];
     let mut w = [0.0; Q];
@@ -47,7 +47,7 @@ pub const W: [f64; Q] = {
     w
 };
 
-/// The direction that points the other way.
+/// The opposite of each direction.
 pub const OPPOSITE: [usize; Q] = {
     let mut opposite = [0; Q];
     let mut i = 1;

@@ -1,4 +1,4 @@
-//! The fluid kernels once more in f64 and plain loops: the reference that GPU results are compared with.
+//! The fluid kernels in f64 and plain loops: the reference for GPU results.
 //!
 //! Everything is in lattice units (Δx = Δt = 1, c_s² = 1/3). Populations are stored shifted, f̃_i = f_i − w_i.
 //! Cells are numbered x + nx (y + ny z).

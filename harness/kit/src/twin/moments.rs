@@ -21,7 +21,7 @@ impl MomentBasis {
     }
 
     /// f_i = weight_i Σ_k rows_ki m_k / norm_k, the inverse of [`Self::moments`];
-    /// the moments are taken with unit weight, so weight_i belongs to the way back.
+    /// the moments are taken with unit weight, so weight_i belongs to the inverse.
     pub fn populations(&self, m: &[f64; Q]) -> [f64; Q] {
         let mut f = [0.0; Q];
         for k in 0..Q {
@@ -48,7 +48,7 @@ pub fn suga() -> &'static MomentBasis {
     })
 }
 
-/// Suga's polynomials made orthogonal under w_i by Gram–Schmidt in their own order.
+/// Suga's polynomials orthogonalised under w_i by Gram–Schmidt in their own order.
 pub fn hermite() -> &'static MomentBasis {
     static BASIS: OnceLock<MomentBasis> = OnceLock::new();
     BASIS.get_or_init(|| {
@@ -76,7 +76,7 @@ pub fn scalar_product(weight: &[f64; Q], a: &[f64; Q], b: &[f64; Q]) -> f64 {
     (0..Q).map(|i| weight[i] * a[i] * b[i]).sum()
 }
 
-/// The data file that both the twin and its tests read.
+/// The data file shared by the twin and its tests.
 pub fn exact_data() -> &'static serde_json::Value {
     static DATA: OnceLock<serde_json::Value> = OnceLock::new();
     DATA.get_or_init(|| {

@@ -2,7 +2,7 @@
 
 use super::lattice::{Q, W};
 
-/// Integer hash with good avalanche, so that a start is the same on every machine.
+/// Integer hash with good avalanche, so that an initial state is the same on every machine.
 pub fn hash32(mut n: u32) -> u32 {
     n ^= n >> 16;
     n = n.wrapping_mul(0x7feb_352d);
@@ -11,7 +11,7 @@ pub fn hash32(mut n: u32) -> u32 {
     n ^ (n >> 16)
 }
 
-/// w_i · amplitude · (r − ½), r uniform in [0, 1), numbered by `cell`.
+/// w_i · amplitude · (r − ½), with r uniform in [0, 1) and determined by `cell`.
 pub fn populations(cell: usize, amplitude: f64) -> [f64; Q] {
     std::array::from_fn(|i| {
         let r = f64::from(hash32((i + Q * cell) as u32)) / 4_294_967_296.0;

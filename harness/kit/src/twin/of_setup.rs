@@ -23,7 +23,7 @@ fn twin_operator(operator: SolidOperator) -> twin::SolidOperator {
     }
 }
 
-/// The twin of a setup; pressure and outflow faces have none.
+/// The twin of a setup; panics for pressure and outflow faces, which it does not support.
 pub fn twin_of(setup: &Setup) -> Twin {
     let faces = [0, 1, 2, 3, 4, 5].map(|n| match &setup.faces[n / 2][n % 2] {
         Face::Periodic => twin::Face::Periodic,
@@ -134,8 +134,8 @@ pub fn poison(rig: &Rig, lattice: &Lattice) {
     }
 }
 
-/// Rounding of f32, and of half precision. The rows of `suga` have unit weight, so that the rounding
-/// of the rest population reaches corners whose weight is 64 times smaller.
+/// Tolerance for rounding in f32 and half precision. The rows of `suga` have unit weight, so that the rounding of the rest
+/// population affects corner populations, whose weight is 64 times smaller.
 pub fn limit(setup: &Setup) -> f64 {
     match (setup.storage, setup.collision) {
         (Storage::F16, _) => 2e-3,
@@ -144,7 +144,7 @@ pub fn limit(setup: &Setup) -> f64 {
     }
 }
 
-/// Storage, lanes and their axis: each precision, the fewest lanes and four.
+/// Storage, lanes and their axis: each precision, with the fewest lanes and with four.
 pub fn layouts() -> [(Storage, u32, usize); 7] {
     [
         (Storage::F32, 1, 2),

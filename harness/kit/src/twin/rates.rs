@@ -1,4 +1,4 @@
-//! What a scene chooses about its collision, and the relaxation rates that follow from it.
+//! Collision parameters of a scene, and the relaxation rates that follow from them.
 
 use super::lattice::Q;
 use super::solid::SolidWeight;
@@ -15,7 +15,7 @@ pub enum Equilibrium {
 /// Collision operator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operator {
-    /// One rate for everything.
+    /// One rate for all moments.
     Bgk,
     /// Suga et al. (2015): moments orthogonal with unit weight.
     Suga,
@@ -23,19 +23,19 @@ pub enum Operator {
     Hermite,
 }
 
-/// Whether a cell lies beside a bounce-back wall.
+/// Whether a cell is next to a bounce-back wall or a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OddClass {
     /// No bounce-back link leaves the cell.
     Bulk,
     /// At least one of the 26 neighbours is a wall, a solid or a velocity face.
     Wall,
-    /// A block is in the cell or in one of the 26 neighbours; decides before walls do.
+    /// A block is in the cell or in one of the 26 neighbours; takes precedence over walls.
     Block,
 }
 
 /// Rates of the moments that carry neither mass, momentum nor shear (Suga et al. 2015, §2).
-/// The shear rate s5 = s7 is 1/τ_eff and so belongs to the cell.
+/// The shear rate s5 = s7 is 1/τ_eff and depends on the cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {
     /// Trace of second order: bulk viscosity.
@@ -88,7 +88,7 @@ impl Rates {
     }
 }
 
-/// Everything that decides the collision of a cell.
+/// All parameters of the collision of a cell.
 #[derive(Clone, Copy, Debug)]
 pub struct Config {
     /// Laminar relaxation time, ν = (τ − ½)/3.
@@ -99,15 +99,15 @@ pub struct Config {
     pub operator: Operator,
     /// Rates of the MRT operators away from walls.
     pub rates: Rates,
-    /// Λ of cells beside bounce-back walls, `Hermite` only.
+    /// Λ of cells next to bounce-back walls, `Hermite` only.
     pub lambda_wall: f64,
     /// Λ of cells with a block and of their neighbours, `Hermite` only; `None` keeps the constants.
     pub lambda_solid: Option<f64>,
     /// Λ of every cell, `Hermite` only, instead of the constants and of the two above.
     pub lambda_everywhere: Option<f64>,
-    /// Lowest odd rate that a Λ may ask for.
+    /// Lower bound of the odd rate from a Λ.
     pub floor: f64,
-    /// Weight of the solid in cells of which blocks fill a part.
+    /// Weight of the solid in cells that blocks fill partially.
     pub solid_weight: SolidWeight,
     /// B of the momentum in closed joints of one row of cells and of two.
     pub joint_weights: [f64; 2],
@@ -116,7 +116,7 @@ pub struct Config {
 }
 
 impl Config {
-    /// The library's defaults: `Hermite`, product equilibrium, Λ = 3/16 beside walls and 1/10 in and beside blocks, but no
+    /// The library's defaults: `Hermite`, product equilibrium, Λ = 3/16 next to walls and 1/10 in and next to blocks, but no
     /// odd rate below 0.8.
     pub const fn new(tau: f64) -> Self {
         Self {
@@ -178,7 +178,7 @@ pub fn moment_rates(config: &Config, nu_t: f64, odd: OddClass) -> [f64; Q] {
     })
 }
 
-/// The odd rate that replaces the constants in this cell; `Suga` keeps them, being the paper's operator.
+/// The odd rate that replaces the constants in this cell; `None` for `Suga`, which keeps those of the paper.
 fn odd_override(config: &Config, odd: OddClass) -> Option<f64> {
     let lambda = match (config.operator, config.lambda_everywhere, odd) {
         (Operator::Hermite, Some(lambda), _) => lambda,

@@ -1,10 +1,10 @@
-//! Partially saturated cells: the fluid of a cell, and the solid that fills a part of it (Noble & Torczynski 1998).
+//! Partially saturated cells: the fluid of a cell and the solid that fills a part of it (Noble & Torczynski 1998).
 
 use super::equilibrium::equilibrium;
 use super::lattice::{C, OPPOSITE, Q, macroscopic};
 use super::rates::{Config, OddClass, Operator, moment_rates};
 
-/// Ω^s, what the solid would do to populations that it had for itself.
+/// Ω^s, the change of populations by the solid alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SolidOperator {
     /// f_ī − f_ī^eq(ρ, u_s) − f_i + f_i^eq(ρ, u_s) (Holdych 2003).
@@ -18,58 +18,59 @@ pub enum SolidOperator {
 /// B of an open cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SolidWeight {
-    /// Of Noble & Torczynski (1998).
+    /// That of Noble & Torczynski (1998).
     Standard,
-    /// With which planes lie where they are.
+    /// The weight with which planes act at their exact positions.
     Exact,
 }
 
-/// What blocks leave of a cell.
+/// The solid in a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Solid {
-    /// Fraction that decides the weight, up to 1.
+    /// Solid fraction for the weight, up to 1.
     pub fraction: f64,
-    /// Sum of the effective fractions of all blocks, of which each has its part of the force; more than 1 where they overlap.
+    /// Sum of the effective fractions of all blocks, by which the force is divided among them; more than 1 where they overlap.
     pub shares: f64,
     /// Mean velocity of the blocks, weighted by their effective fractions.
     pub velocity: [f64; 3],
-    /// Whether a direct neighbour holds solid, where the cell itself holds none of a block.
+    /// Whether a direct neighbour holds solid while the cell itself holds no block.
     pub beside: bool,
     /// Whether the cell and all within two layers of it are full of one block.
     pub deep: bool,
-    /// How closely blocks that meet in it, or one and a wall, fill it: [`tightness`], 0 where they do not.
+    /// How closely blocks that meet in the cell, or a block and a wall, fill it: [`tightness`]; 0 if they do not.
     pub tight: f64,
     /// Whether several blocks meet in it.
     pub shared: bool,
-    /// Whether its joint has two rows of cells: one block fills it, and another one the next cell.
+    /// Whether the cell belongs to a joint of two rows: one block fills it, and another one the next cell.
     pub facing: bool,
 }
 
-/// Least B of the momentum in a cell that blocks share.
+/// Lower bound of B of the momentum in a cell that several blocks share.
 const SHARED: f64 = 0.25;
-/// B of all moments but mass and momentum in a cell of a closed joint, and least one in a cell that blocks share.
+/// B of all moments except mass and momentum in a cell of a closed joint, and their lower bound in a cell that blocks share.
 pub(super) const DAMPS: f64 = 1.0 / 16.0;
 
-/// 1 for a closed joint, which leaves up to 0.002 of a cell, 0 for an open one, which leaves a tenth.
+/// Tightness of a cell with the solid `share`: 1 for a closed joint, up to 0.002 of a cell wide, 0 from a tenth of a cell on.
 pub fn tightness(share: f64) -> f64 {
     ((share - 0.9) / 0.098).clamp(0.0, 1.0)
 }
 
 impl Solid {
-    /// Whether the odd moments relax as beside the surface of a block.
+    /// Whether the odd moments relax as next to the surface of a block.
     pub fn is_near(&self) -> bool {
         self.beside || self.shares > 0.0
     }
 
-    /// B of the momentum at the relaxation time `tau`: 1 deep inside, that of the configuration in closed joints, and at least a quarter in
-    /// a cell that blocks fill by half and share. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that of docs/src/theory/solids.md.
+    /// B of the momentum at the relaxation time `tau`: 1 deep inside, that of the configuration in closed joints, and at least a
+    /// quarter in a cell that several blocks fill by half. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that of
+    /// docs/src/theory/solids.md.
     pub fn weight(&self, config: &Config, tau: f64) -> f64 {
         let [one, two] = config.joint_weights;
         let closed = if self.facing { two } else { one };
         self.in_joint(config, tau, [SHARED, closed])
     }
 
-    /// The same for all moments but mass and momentum.
+    /// The same for all moments except mass and momentum.
     pub fn higher_weight(&self, config: &Config, tau: f64) -> f64 {
         self.in_joint(config, tau, [DAMPS; 2])
     }
@@ -99,7 +100,7 @@ impl Solid {
         }
     }
 
-    /// What the eddy viscosity sees of the cell: the solid where it is solid.
+    /// Velocity from which the eddy viscosity is computed: the mean of fluid and solid, by the solid fraction.
     pub fn mean_velocity(&self, u: [f64; 3]) -> [f64; 3] {
         let e = self.fraction;
         [0, 1, 2].map(|a| (1.0 - e) * u[a] + e * self.velocity[a])
@@ -114,8 +115,8 @@ pub(super) fn third_order_rate(config: &Config, tau: f64) -> f64 {
     }
 }
 
-/// Ω^s of a solid that moves with `u_s`, in a cell with the relaxation time `tau`. Deep inside the
-/// equilibrium of the solid takes the place of all populations.
+/// Ω^s of a solid that moves with `u_s`, in a cell with the relaxation time `tau`. Deep inside, the equilibrium of the
+/// solid replaces all populations.
 pub fn solid_change(
     config: &Config,
     (operator, deep): (SolidOperator, bool),

@@ -1,4 +1,4 @@
-//! Means and covariances over time in f64, from all samples at once.
+//! Means and covariances over time in f64, computed from all samples at once.
 
 /// Means of four quantities, and the mean products of their fluctuations: density, xx, yy, zz, xy, yz, xz.
 pub fn moments(samples: &[[f32; 4]]) -> ([f64; 4], [f64; 7]) {

@@ -1,4 +1,4 @@
-//! WALE eddy viscosity (Nicoud & Ducros 1999, eq. 13) and the velocity gradient it reads.
+//! WALE eddy viscosity (Nicoud & Ducros 1999, eq. 13) and its velocity gradient.
 
 use super::domain::Domain;
 
@@ -26,7 +26,7 @@ pub fn nu_t(g: &[[f64; 3]; 3], c_w: f64) -> f64 {
     c_w * c_w * sd2.powf(1.5) / denominator
 }
 
-/// g_ij = ∂u_i/∂x_j at a fluid cell: central, one-sided beside a solid or a face that is not periodic,
+/// g_ij = ∂u_i/∂x_j at a fluid cell: central, one-sided next to a solid or a face that is not periodic,
 /// 0 along an axis without fluid neighbours.
 pub fn gradient(domain: &Domain, u: &[[f64; 3]], cell: usize) -> [[f64; 3]; 3] {
     let mut g = [[0.0; 3]; 3];

@@ -1,10 +1,10 @@
-//! A law of the wall in the place of no slip: the stress of a plane wall at rest, handed over by the populations that it returns.
+//! A wall law instead of no slip on plane walls at rest: its stress is imposed on the populations that they return.
 
 use super::domain::{Domain, Link};
 use super::lattice::{C, OPPOSITE, Q, W};
 use std::collections::HashSet;
 
-/// Speed at a distance from a smooth wall, from which the stress follows.
+/// Law of the velocity near a smooth wall, from which the stress follows.
 #[derive(Clone, Copy, Debug)]
 pub enum WallLaw {
     /// u⁺ = y⁺ up to 11.81, then 8.3 y⁺^(1/7) (Werner & Wengle 1991).
@@ -16,7 +16,7 @@ pub enum WallLaw {
 /// The model of the walls of a flow.
 #[derive(Clone, Debug)]
 pub struct WallModel {
-    /// Of smooth walls.
+    /// Law of smooth walls.
     pub law: WallLaw,
     /// k_s of the lower and upper face of x, y, z, cells.
     pub roughness: [[f64; 2]; 3],
@@ -100,7 +100,7 @@ impl WallLaw {
 }
 
 impl WallModel {
-    /// τ/ρ, of the log law of rough walls where it has more.
+    /// τ/ρ, by the log law of rough walls where that is larger.
     fn stress(&self, wall: &Wall, domain: &Domain, u: f64, y: f64, nu: f64) -> f64 {
         let at = domain.position(wall.cell)[wall.axis];
         let at_face = at == [0, domain.cells[wall.axis] - 1][wall.side];
@@ -126,7 +126,7 @@ impl WallModel {
         smooth.max(rough * rough)
     }
 
-    /// The cells at plane walls with five cells of fluid before them, each with whether a block is in one of these.
+    /// The cells at plane walls with five cells of fluid in front of the wall, each with whether a block is in one of these.
     fn walls(domain: &Domain, blocks: &[bool]) -> Vec<(Wall, bool)> {
         let mut walls = Vec::new();
         for axis in 0..3 {
@@ -150,7 +150,7 @@ impl WallModel {
         walls
     }
 
-    /// What the law says of a wall: the tangential velocity that it reads, the stress over the density, and the part of the model.
+    /// Friction on a wall: the tangential velocity that the law reads, the stress over the density, and the share of the model.
     fn friction(
         &self,
         wall: &Wall,
@@ -164,8 +164,8 @@ impl WallModel {
         (along, stress, share(stress.sqrt(), nu))
     }
 
-    /// Least eddy viscosity of each cell: κ y u_τ, tapered over four cells, of the nearest wall.
-    /// `blocks` says which cells a block was in; it may be empty.
+    /// Smallest eddy viscosity of each cell: κ y u_τ of the nearest wall, tapered over four cells. `blocks` marks the cells with
+    /// a block in the previous step; it may be empty.
     pub fn viscosity(&self, domain: &Domain, nu: f64, u: &[[f64; 3]], blocks: &[bool]) -> Vec<f64> {
         let mut found = vec![0.0; domain.cell_count()];
         let mut taken = HashSet::new();
@@ -184,8 +184,8 @@ impl WallModel {
         found
     }
 
-    /// What has arrived at walls without slip, with the stress of the law in the place of theirs: of the momentum P into the wall
-    /// 2P would be lost, and 2P − m/3 is with f_ī = f_i* − 6 w_i c_i·m.
+    /// Corrects populations returned by walls with no slip to the stress of the law: of the momentum P into the wall
+    /// 2P would be lost; 2P − m/3 is lost with f_ī = f_i* − 6 w_i c_i·m.
     pub fn hand_over(
         &self,
         domain: &Domain,
@@ -218,7 +218,7 @@ impl WallModel {
     }
 }
 
-/// The part of the model: 0 up to y⁺ = 3 of the first cell, 1 from 6 on.
+/// The share of the model: 0 up to y⁺ = 3 of the first cell, 1 from 6 on.
 pub(super) fn share(friction: f64, nu: f64) -> f64 {
     let s = ((0.5 * friction / nu - 3.0) / 3.0).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)

@@ -10,16 +10,16 @@ use riprap::{
 
 /// A scene at half the resolution of another.
 pub struct Halved {
-    /// It, without pictures.
+    /// The scene, without pictures.
     pub scene: Scene,
-    /// What its resolution is.
+    /// Description of its resolution.
     pub says: String,
 }
 
 /// The scene with cells twice as wide, particles twice as far apart, or without a fluid steps twice as long.
 ///
 /// # Errors
-/// What does not fit.
+/// If the scene does not fit half the resolution.
 pub fn halved(scene: &Scene, args: &Args) -> Result<Halved> {
     let mut half = scene.clone();
     half.views.clear();
@@ -77,7 +77,7 @@ fn widen(scene: &Scene, half: &mut Scene) -> riprap::Result<()> {
     Ok(())
 }
 
-/// The same time in other steps, where those of the scene are `time_step` (s) long.
+/// The same duration with other steps; the steps of the scene are `time_step` (s) long.
 fn lasting(scene: &Scene, args: &Args, time_step: f64) -> Run {
     let length = match args.steps {
         Some(steps) => steps as f64 * time_step,

@@ -9,26 +9,26 @@ use riprap::{
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Part of the simulated time, at its end, over which means are taken: what a start leaves behind is gone, and enough
-/// rows remain.
+/// Fraction of the simulated time, at its end, over which means are taken: transients of the start have decayed, and
+/// enough rows remain.
 const LAST: f64 = 0.25;
 
-/// A number, or a vector, and how far it is from that at half the resolution.
+/// A number or a vector, and its difference from the run at half the resolution.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Headline {
-    /// Table, without its ending.
+    /// Table, without its file extension.
     pub table: String,
-    /// What it is.
+    /// Name of the quantity.
     pub quantity: String,
     /// Its unit; empty for a pure number.
     pub unit: &'static str,
-    /// Mean of the last quarter; of a vector three.
+    /// Mean over the last quarter; three components of a vector.
     pub value: Vec<f64>,
     /// The same at half the resolution.
     pub coarse: Vec<f64>,
     /// Length of the difference.
     pub difference: f64,
-    /// The same as a part of the value, unless that is zero.
+    /// The difference relative to the value, unless that is zero.
     pub relative: Option<f64>,
 }
 
@@ -52,7 +52,7 @@ impl Headline {
         }
     }
 
-    /// Whether it is zero on both grids: nothing to be told.
+    /// Whether it is zero at both resolutions, so that there is nothing to report.
     pub fn is_zero(&self) -> bool {
         self.value.iter().chain(&self.coarse).all(|x| *x == 0.0)
     }
@@ -68,7 +68,7 @@ pub fn tables(scene: &Scene) -> Vec<(String, &[Quantity])> {
     histories.chain(probes).collect()
 }
 
-/// The headline numbers of a table that two runs have, the finer one first; none of a table with several rows a time.
+/// The headline numbers of a table in two runs, the finer one first; none for a table with several rows per time.
 pub fn of(
     (name, quantities): &(String, &[Quantity]),
     folders: [&PathBuf; 2],
@@ -77,7 +77,7 @@ pub fn of(
     for folder in folders {
         read.push(Table::read(folder.join(format!("{name}.csv")))?);
     }
-    // Quantity and unit, and the values of both.
+    // Quantity and unit, and the values at both resolutions.
     type Found = ((String, &'static str), Vec<f64>, Vec<f64>);
     let mut found: Vec<Found> = Vec::new();
     for (column, values) in &read[0].columns {
@@ -91,7 +91,7 @@ pub fn of(
         let (Some(fine), Some(coarse)) = (fine, coarse) else {
             continue;
         };
-        // Components follow each other.
+        // Components of a vector are consecutive columns.
         match found.last_mut() {
             Some((last, a, b)) if *last == quantity => {
                 a.push(fine);
@@ -108,7 +108,8 @@ pub fn of(
         .collect())
 }
 
-/// The quantity of a probe's column, of a vector without its axis, and its unit; none where it is no headline.
+/// Quantity and unit of a probe's column; components of a vector share the quantity. `None` for a column without a
+/// headline number.
 fn headline(column: &str) -> Option<(String, &'static str)> {
     let extreme = ["_min", "_max"].iter().any(|end| column.ends_with(end));
     if extreme || ["step", "time", "s"].contains(&column) {
@@ -121,7 +122,7 @@ fn headline(column: &str) -> Option<(String, &'static str)> {
     Some((name.into(), unit(name)))
 }
 
-/// Mean of a column over the last part of the time; none where times repeat, or nothing is a number.
+/// Mean of a column over the last part of the time; `None` if times repeat or no value is finite.
 fn last_mean(table: &Table, values: &[f64]) -> Option<f64> {
     let times = table.column("time")?;
     if times.windows(2).any(|pair| pair[1] <= pair[0]) {
@@ -136,7 +137,7 @@ fn last_mean(table: &Table, values: &[f64]) -> Option<f64> {
     (!some.is_empty()).then(|| some.iter().sum::<f64>() / some.len() as f64)
 }
 
-/// The unit of what a probe measures.
+/// The unit of a measured quantity.
 pub fn unit(quantity: &str) -> &'static str {
     match quantity {
         "velocity" => "m/s",

@@ -1,7 +1,7 @@
-//! `--error-estimate`: the scene once more at half the resolution, and how far its headline numbers are from those.
+//! `--error-estimate`: runs the scene also at half the resolution, and reports the differences of its headline numbers.
 //!
-//! Where the error falls with the cell to the power p ≥ 1, that of the run is the difference over 2^p − 1: at most the
-//! difference itself.
+//! If the error scales with the cell size to the power p ≥ 1, the error of the run is the difference over 2^p − 1: at most
+//! the difference itself.
 
 mod coarse;
 mod headline;
@@ -20,21 +20,21 @@ use std::{
     sync::atomic::{AtomicBool, Ordering},
 };
 
-/// Folder of the run at half the resolution, in that of the run.
+/// Folder of the run at half the resolution, inside that of the run.
 const FOLDER: &str = "half_resolution";
-/// Lines that the terminal shows.
+/// Number of lines printed to the terminal.
 const SHOWN: usize = 30;
 
-/// How far headline numbers are from those at half the resolution.
+/// Differences of headline numbers from those at half the resolution.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Estimate {
-    /// What half the resolution is.
+    /// Description of half the resolution.
     pub resolution: String,
-    /// Where that run is.
+    /// Folder of that run.
     pub folder: PathBuf,
-    /// Mean values of the last quarter of the run, and how far they are off.
+    /// Means over the last quarter of the run, and their differences.
     pub headlines: Vec<Headline>,
-    /// Why there are none, if there are none.
+    /// Why there are no headline numbers, if so.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub missing: Option<String>,
 }
@@ -42,7 +42,7 @@ pub struct Estimate {
 /// Runs the scene at half its resolution and then as it is, and compares.
 ///
 /// # Errors
-/// Those of [`super::run`]; what the scene lacks at half its resolution, before anything runs.
+/// Returns the errors of [`super::run`], and, before anything runs, those of the scene at half its resolution.
 pub fn run(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     if args.restart.is_some() {
         let message = "the scene at half its resolution has no such checkpoint; leave out `--restart` or \
@@ -58,7 +58,7 @@ pub fn run(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     };
     let rough = Args {
         out: Some(estimate.folder.clone()),
-        // Its own would be of another length.
+        // `--steps` counts the steps of the finer run.
         steps: None,
         error_estimate: false,
         ..args.clone()
@@ -105,7 +105,7 @@ fn compare(scene: &Scene, folders: [&PathBuf; 2]) -> Result<Vec<Headline>> {
     }
     ensure!(
         !all.is_empty(),
-        "the scene measures nothing with one value a time; add [[probes]] or [[output.histories]]"
+        "no probe or history of the scene has a single value per time; add [[probes]] or [[output.histories]]"
     );
     Ok(all)
 }

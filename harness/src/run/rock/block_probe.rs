@@ -29,7 +29,7 @@ const STRESSES: [&str; 6] = [
     "stress_xz",
 ];
 
-/// Columns, and their values in a row.
+/// Names and values of the columns of a row.
 #[derive(Default)]
 struct Row(Vec<(String, f64)>);
 
@@ -53,7 +53,7 @@ impl Row {
     }
 }
 
-/// What writes the tables of a probe of the block called `name`.
+/// The recorders of the tables of a probe of the block called `name`.
 ///
 /// # Errors
 /// If there is no such block, or a table cannot be written.
@@ -123,7 +123,7 @@ pub fn recorders(
     Ok(recorders)
 }
 
-/// What writes the loads on the faces of a block.
+/// The recorder of the loads on the faces of a block.
 fn face_table(
     run: &SceneRun,
     folder: &Path,
@@ -135,7 +135,7 @@ fn face_table(
         name: format!("{}_faces", probe.name),
         every: probe.every,
         columns: face_row(&FaceLoad::default(), false, None).columns(),
-        // Its part and its face.
+        // Part and face.
         coordinates: Some(2),
         tracks: Vec::new(),
         title: String::new(),
@@ -152,7 +152,7 @@ fn face_table(
     })
 }
 
-/// Motion and forces; what only a block in a fluid, with films, with fixed points or a deformable one has, where it does.
+/// Motion and forces; also the quantities of blocks in a fluid, with films, with fixed points, or deformable ones, if any.
 fn measure(rock: &Rock<'_>, block: usize) -> Row {
     let blocks = rock.blocks;
     let pose = blocks.poses()[block];
@@ -191,8 +191,8 @@ fn measure(rock: &Rock<'_>, block: usize) -> Row {
     row
 }
 
-/// The force of the fluid on faces that look down, against gravity, and the mean pressure on those in joints, closed ones
-/// too.
+/// The uplift, the force of the fluid on faces that look down, against gravity, and the mean pressure on faces in joints,
+/// closed ones included.
 fn measure_faces(row: &mut Row, coupled: Coupled<'_>, block: usize, gravity: DVec3) {
     let up = -gravity.normalize_or_zero();
     let loads = coupled.face_loads(block);
@@ -213,7 +213,7 @@ fn measure_faces(row: &mut Row, coupled: Coupled<'_>, block: usize, gravity: DVe
     row.number("joint_pressure", force / area);
 }
 
-/// A face, which has a closed joint or not.
+/// The row of a face, with its closed joint, if it has one.
 fn face_row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Row {
     let face = &load.face;
     let shear = load.shear();
@@ -236,13 +236,13 @@ fn face_row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Row {
     row
 }
 
-/// How a block stands.
+/// The factors of safety of a block.
 fn standing(rock: &Rock<'_>, block: usize) -> Standing {
     Standing::of(rock.setup, rock.blocks, block, fluid_wrench(rock, block))
 }
 
-/// Force (N) and torque about its centroid (N m) of the fluid on a block, buoyancy included: in its closed joints is the water that is at
-/// their rim. Zero where there is no fluid.
+/// Force (N) and torque about its centroid (N m) of the fluid on a block, buoyancy included; closed joints hold the water
+/// at their rim. Zero without a fluid.
 pub fn fluid_wrench(rock: &Rock<'_>, block: usize) -> [DVec3; 2] {
     let load = rock.loads.get(block).copied().unwrap_or_default();
     let fluid = rock

@@ -12,29 +12,29 @@ use riprap::{
     rock::{Blocks, EnergyLedger, Motion, Setup},
 };
 
-/// The blocks of a run as they are now.
+/// The present state of the blocks of a run.
 #[derive(Clone, Copy)]
 pub struct Rock<'a> {
     /// Steps done.
     pub step: u64,
     /// Simulated time, s.
     pub time: f64,
-    /// The blocks as they were made.
+    /// The blocks as set up.
     pub setup: &'a Setup,
-    /// The blocks as they are.
+    /// The present blocks.
     pub blocks: &'a Blocks,
-    /// Those that a fluid flows around, the first ones, with what they feel of it; none without a fluid.
+    /// Loads of the fluid on the blocks in it, which come first; none without a fluid.
     pub loads: &'a [FluidLoad],
-    /// They and the fluid together, where there is one.
+    /// The coupling with the fluid, if there is one.
     pub coupled: Option<Coupled<'a>>,
-    /// Number of blocks that are shown, the first ones: the faces of a domain that hold blocks are none.
+    /// Number of blocks that are shown, the first ones; the blocks that represent faces of the domain are not.
     pub shown: usize,
-    /// Energies at the start, those that a restart has not seen included.
+    /// Energies at the start of the scene, before any restart.
     pub start: &'a EnergyLedger,
 }
 
 impl Rock<'_> {
-    /// Blocks that move or might.
+    /// Number of blocks that are neither fixed nor asleep.
     pub fn awake(&self) -> usize {
         let all = self.blocks.asleep().enumerate();
         all.filter(|(block, asleep)| !asleep && self.blocks.moves(*block))
@@ -50,13 +50,13 @@ impl Rock<'_> {
             .fold(0.0, f64::max)
     }
 
-    /// Number of blocks whose motion is one of those `wanted`.
+    /// Number of blocks whose motion is `wanted`.
     pub fn count(&self, wanted: fn(&Motion) -> bool) -> usize {
         let shown = self.setup.blocks[..self.shown].iter();
         shown.filter(|block| wanted(&block.motion)).count()
     }
 
-    /// How much moves and touches, in words.
+    /// Numbers of moving blocks and of contacts, in words.
     pub fn activity(&self) -> String {
         format!(
             "{} of {} blocks awake, {} contacts",
@@ -66,7 +66,7 @@ impl Rock<'_> {
         )
     }
 
-    /// Free, driven and fixed blocks, in words.
+    /// Numbers of free, driven and fixed blocks, in words.
     pub fn counted(&self) -> String {
         let parts = self.setup.blocks[..self.shown].iter();
         let parts: usize = parts.map(|block| block.shape.parts().len()).sum();

@@ -1,4 +1,4 @@
-//! A run of blocks in numbers.
+//! The blocks in the summary of a run.
 
 use super::super::{recorder::RunLog, scene_run::SceneRun, throughput::Throughput};
 use super::Rock;
@@ -6,28 +6,28 @@ use riprap::rock::EnergyLedger;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// What blocks did.
+/// State and work of the blocks of a run.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Rocks {
     /// Number of blocks, fixed ones included.
     pub blocks: usize,
-    /// Blocks that move or might at the end: neither fixed nor asleep.
+    /// Blocks that are neither fixed nor asleep at the end.
     pub awake: usize,
     /// Contacts at the end.
     pub contacts: usize,
-    /// Pairs at the end that may touch.
+    /// Candidate pairs at the end.
     pub pairs: usize,
     /// Pairs tested for contact in this run.
     pub tests: u64,
-    /// Linear programs that this took.
+    /// Linear programs solved for these tests.
     pub programs: u64,
-    /// Seconds of this run's steps, without what was written.
+    /// Seconds of this run's steps, without output.
     pub seconds: f64,
     /// Longest sub-step at the end, s.
     pub sub_step: f64,
     /// Largest speed of a centroid at the end, m/s.
     pub max_speed: f64,
-    /// Largest speed of a centroid that was seen, m/s.
+    /// Largest observed speed of a centroid, m/s.
     pub max_speed_seen: f64,
     /// Energies, J.
     #[serde(serialize_with = "energies")]
@@ -38,13 +38,13 @@ pub struct Rocks {
     /// Largest von Mises stress of deformable blocks, Pa.
     #[serde(skip)]
     pub max_von_mises: f64,
-    /// What the balance of energies has gained since the start, as a part of what was turned over. The balance counts
-    /// what ended contacts held, [`EnergyLedger::lost`].
+    /// Energy gained by the balance since the start, as a fraction of the energy turned over. The balance includes the energy
+    /// that contacts held when they ended, [`EnergyLedger::lost`].
     pub energy_error: f64,
-    /// What contacts held when they ended, as a part of what was turned over: the error of the contact law, positive
-    /// where it takes energy out.
+    /// Energy that contacts held when they ended, as a fraction of the energy turned over: the error of the contact law,
+    /// positive if it removes energy.
     pub contact_loss: f64,
-    /// Steps a second, without what was written and without the first ones, in which kernels are compiled.
+    /// Steps per second, without output and without the first steps, in which kernels are compiled.
     pub steps_a_second: f64,
 }
 
@@ -90,8 +90,8 @@ impl Rocks {
 }
 
 impl Rock<'_> {
-    /// `energy` as a part of what has been turned over: the kinetic energy now and at the start, the change of the
-    /// potential one, the strain, all that was taken, and what was put in.
+    /// `energy` as a fraction of the energy turned over: the kinetic energy now and at the start, the changes of potential
+    /// and strain energy, all energy dissipated or held, and the work of drives and loads.
     fn of_turnover(&self, now: &EnergyLedger, energy: f64) -> f64 {
         let turned = now.kinetic
             + self.start.kinetic

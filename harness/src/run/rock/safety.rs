@@ -1,23 +1,23 @@
-//! How safely the blocks stand that a probe asks about.
+//! Factors of safety of blocks whose probes request them.
 
 use riprap::safety::Standing;
 use serde::Serialize;
 use std::fmt;
 
-/// Factors of safety of a block in a run. In JSON an infinite one and one that is not known are both null.
+/// Factors of safety of a block in a run. In JSON infinite and unknown ones are both null.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Safety {
     /// The block.
     pub block: String,
-    /// When it was looked at last, s.
+    /// Time of the last evaluation, s.
     pub time: f64,
-    /// Then.
+    /// Factors at that time.
     pub last: Factors,
-    /// The least that each was.
+    /// Smallest value of each factor.
     pub least: Factors,
 }
 
-/// Factors of safety: infinite where nothing drives, NaN where the block touches nothing.
+/// Factors of safety: infinite without a driving load, NaN if the block touches nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Factors {
     /// Against sliding.
@@ -29,7 +29,7 @@ pub struct Factors {
 }
 
 impl Safety {
-    /// Notes how `block` stands at `time` (s).
+    /// Adds the standing of `block` at `time` (s) to `all`.
     pub fn note(all: &mut Vec<Self>, block: &str, time: f64, now: &Standing) {
         let last = Factors {
             sliding: now.sliding.factor,
@@ -37,7 +37,7 @@ impl Safety {
             toppling: now.toppling,
         };
         let least = match all.iter().find(|known| known.block == block) {
-            // A number is less than none.
+            // The minimum of a number and NaN is the number.
             Some(Self { least, .. }) => Factors {
                 sliding: least.sliding.min(last.sliding),
                 uplift: least.uplift.min(last.uplift),

@@ -1,23 +1,23 @@
 //! Correlation between the points of a line.
 
-/// Most points: their number squared is the work of a sample.
+/// Largest number of points: a sample costs the square of it.
 const MOST: usize = 1000;
 
-/// Two-point correlations along a line, as if it were homogeneous: means over all pairs of points that are equally far apart.
+/// Two-point correlations along a line taken as homogeneous: means over all pairs of points at equal distances.
 pub struct Correlation {
     separation: f64,
-    /// Of each column what the first sample had at each point: sums are of differences from it.
+    /// First sample of each column at each point: sums are of differences from it.
     first: Vec<Vec<f64>>,
-    /// Of each column the sums of values and squares at each point.
+    /// Sums of values and squares of each column at each point.
     sums: Vec<Vec<[f64; 2]>>,
-    /// Of each column and separation the sum of products over pairs and samples.
+    /// Sums of products over pairs and samples of each column and separation.
     products: Vec<Vec<f64>>,
     coordinates: usize,
     count: f64,
 }
 
 impl Correlation {
-    /// Of a line, whose rows begin with `s` and the point.
+    /// Correlations along a line whose `rows` begin with `s` and the point.
     pub fn new(rows: &[Vec<f64>], coordinates: usize) -> Option<Self> {
         let points = rows.len();
         if coordinates != 4 || !(3..=MOST).contains(&points) {
@@ -52,8 +52,8 @@ impl Correlation {
         }
     }
 
-    /// A row a separation (m): that, and the correlation coefficient of each column, from 1 on; not a number of one that does
-    /// not vary. Up to half the line, beyond which few pairs are left.
+    /// One row per separation (m): the separation, and the correlation coefficient of each column, starting at 1; NaN for a
+    /// column that does not vary. Separations go up to half the line, beyond which few pairs are left.
     pub fn rows(&self) -> Vec<Vec<f64>> {
         let points = self.products.first().map_or(0, Vec::len);
         let coefficient = |column: usize, apart: usize| {
@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn a_wave_of_random_phase_is_correlated_as_its_cosine() {
         let points = 33;
-        // 200 phases, evenly: their mean is exact. The mean of the flow varies along the line.
+        // 200 evenly spaced phases, whose mean is exact. The mean of the flow varies along the line.
         let sample = |n: usize| -> Vec<Vec<f64>> {
             let phase = 2.0 * PI * n as f64 / 200.0;
             let row = |i: usize| {

@@ -1,4 +1,4 @@
-//! Statistics of the rows of a table over time: `NAME_statistics.csv`, of single rows `NAME_spectrum.csv`, of lines
+//! Statistics of the rows of a table over time: `NAME_statistics.csv`, for single rows `NAME_spectrum.csv`, for lines
 //! `NAME_correlation.csv`, each with its picture.
 
 mod correlation;
@@ -26,32 +26,32 @@ const STATISTICS: [&str; 7] = [
     "max",
     "integral_time",
 ];
-/// Fewest samples by whose errors a run may end: batches of at least four.
+/// Fewest samples from which errors may end a run: batches of at least four.
 const SAMPLES: u64 = 256;
 /// Products of the fluctuations of the components of a velocity.
 const PRODUCTS: [(&str, [usize; 2]); 3] = [("xy", [0, 1]), ("yz", [1, 2]), ("xz", [0, 2])];
 
-/// Statistics of a table: of each of its columns, at each of the places that its rows of one time belong to.
+/// Statistics of a table: for each of its columns, at each place that it has rows for.
 pub struct TableStatistics {
     path: PathBuf,
     title: String,
     /// s
     from: f64,
-    /// Leading columns that say where a row was measured.
+    /// Leading columns with the place of a row.
     coordinates: Vec<String>,
     columns: Vec<String>,
-    /// First of the columns of a velocity, if there is one.
+    /// Index of the first column of a velocity, if there is one.
     velocity: Option<usize>,
     stations: Vec<Station>,
-    /// First and last time that counted, s.
+    /// First and last time of the samples, s.
     times: Option<[f64; 2]>,
     count: u64,
-    /// All samples of the columns of a single row, for spectra.
+    /// All samples of the columns, if the table has a single row per time; for spectra.
     single: Option<Vec<Vec<f64>>>,
     correlation: Option<Correlation>,
 }
 
-/// A place with its statistics.
+/// Statistics at one place.
 #[derive(Default)]
 struct Station {
     coordinates: Vec<f64>,
@@ -75,7 +75,7 @@ impl Station {
             return;
         };
         for ((_, [a, b]), sum) in PRODUCTS.into_iter().zip(&mut self.products) {
-            // Not a number before the first sample, of which nothing deviates.
+            // NaN before the first sample, which has no mean to deviate from.
             let product = before[a] * deviation(&self.series, first + b);
             if product.is_finite() {
                 *sum += product;
@@ -85,8 +85,8 @@ impl Station {
 }
 
 impl TableStatistics {
-    /// Of the table at `path` from the time `from` (s) on; `columns` are those after step and time, of which the first few are
-    /// `coordinates`.
+    /// Statistics of the table at `path` from the time `from` (s) on; `columns` are those after step and time, the first few of
+    /// which are `coordinates`.
     pub fn new(
         path: &Path,
         title: &str,
@@ -116,7 +116,7 @@ impl TableStatistics {
         }
     }
 
-    /// Adds what the table holds already, after a restart.
+    /// Adds the rows that the table already holds, after a restart.
     pub fn replay(&mut self) -> riprap::Result<()> {
         let table = Table::read(&self.path)?;
         let [(_, steps), (_, times), columns @ ..] = &table.columns[..] else {
@@ -138,7 +138,7 @@ impl TableStatistics {
 
     /// Adds the rows of a time (s).
     pub fn push(&mut self, time: f64, rows: &[Vec<f64>]) {
-        // Steps are whole: a time that is `from` but for its last digits counts.
+        // Times are multiples of the step: one that equals `from` up to rounding counts.
         if time < self.from * (1.0 - 1e-12) || rows.is_empty() {
             return;
         }
@@ -164,8 +164,8 @@ impl TableStatistics {
         }
     }
 
-    /// The relative errors of the means of its quantities; none while there are too few samples, or they span less time than the
-    /// flow was given to develop, before which no error shows what slow motions it has.
+    /// The relative errors of the means of its quantities. `None` while there are too few samples, or while they span less time
+    /// than `from`, the time given to the flow to develop: errors do not include slower motions before.
     fn errors(&self) -> Option<Vec<Option<f64>>> {
         let length = self.times.map_or(0.0, |[first, last]| last - first);
         let enough = self.count >= SAMPLES && length >= self.from;
@@ -183,7 +183,7 @@ impl TableStatistics {
         length / self.count.saturating_sub(1).max(1) as f64
     }
 
-    /// Writes all at the end of a run, at `step` and `time` (s).
+    /// Writes all statistics at the end of a run, at `step` and `time` (s).
     pub fn write(&self, log: &mut RunLog, step: u64, time: f64) -> Result<()> {
         if self.count == 0 {
             log.warnings.push(format!(
@@ -246,7 +246,7 @@ impl TableStatistics {
         Ok(())
     }
 
-    /// Means and RMS along a line.
+    /// Draws means and RMS along a line.
     fn draw_profiles(&self, table: &Path, picture: &Path) -> Result<()> {
         let table = Table::read(table)?;
         let mut tracks = Vec::new();
@@ -271,7 +271,7 @@ impl TableStatistics {
         chart.draw(picture)
     }
 
-    /// Writes `rows`, a curve of each column over a common one, and draws them.
+    /// Writes `rows`, a curve per column over a common abscissa, and draws them.
     fn write_curves(
         &self,
         log: &mut RunLog,
@@ -324,7 +324,7 @@ impl TableStatistics {
     }
 }
 
-/// Curves beside a table.
+/// Kinds of curves that accompany a table.
 #[derive(Clone, Copy)]
 enum Curves {
     Spectrum,
@@ -332,7 +332,7 @@ enum Curves {
 }
 
 impl Curves {
-    /// Ending of the name of their table, and its first column.
+    /// Suffix of the name of their table, and the name of its first column.
     fn names(self) -> (&'static str, &'static str) {
         match self {
             Self::Spectrum => ("spectrum", "frequency"),
@@ -371,7 +371,7 @@ impl Curves {
     }
 }
 
-/// Columns of one quantity: the components of a vector, each other column by itself.
+/// Groups columns by quantity: the components of a vector together, each other column by itself.
 fn groups(columns: &[String]) -> Vec<(String, Vec<String>)> {
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
     for column in columns {

@@ -3,14 +3,14 @@
 use rustfft::{FftPlanner, num_complex::Complex};
 use std::f64::consts::PI;
 
-/// Fewest samples of a segment.
+/// Smallest number of samples in a segment.
 const FEWEST: usize = 16;
 
-/// A row a frequency (Hz): the frequency, and for each of `columns`, sampled every `interval` (s), the power spectral density,
-/// whose integral over the frequencies is the variance (unit²/Hz). Not the mean.
+/// One row per frequency (Hz): the frequency, and for each of `columns`, sampled every `interval` (s), the power spectral
+/// density, whose integral over the frequencies is the variance (unit²/Hz). The mean is removed.
 ///
-/// By the method of Welch 1967 (IEEE Trans. Audio Electroacoust. 15:70): mean over segments that overlap by half under a Hann
-/// window, of a power of two of samples, at least seven of them. None of fewer than 64 samples.
+/// By the method of Welch 1967 (IEEE Trans. Audio Electroacoust. 15:70): mean over at least seven segments that overlap by
+/// half under a Hann window, each of a power of two of samples. No rows for fewer than 64 samples.
 pub fn spectra(columns: &[Vec<f64>], interval: f64) -> Vec<Vec<f64>> {
     let count = columns.first().map_or(0, Vec::len);
     if count < 4 * FEWEST || interval <= 0.0 {
@@ -46,7 +46,7 @@ fn density(samples: &[f64], length: usize, interval: f64) -> Vec<f64> {
             .collect();
         transform.process(&mut values);
         for (k, sum) in density.iter_mut().enumerate() {
-            // Of both signs of the frequency; the highest has one.
+            // Both signs of the frequency contribute; the highest has only one.
             let sides = if 2 * (k + 1) == length { 1.0 } else { 2.0 };
             *sum += sides * values[k + 1].norm_sqr() * interval / (power * segments);
         }

@@ -1,4 +1,4 @@
-//! When the statistical errors of means are small enough to stop.
+//! Stops a run when the statistical errors of means are small enough.
 
 use super::{TableStatistics, groups};
 use anyhow::{Result, bail};
@@ -6,8 +6,8 @@ use riprap::Error;
 use serde::Serialize;
 use std::{fmt, str::FromStr};
 
-/// The relative statistical error of the mean of each quantity of a table: the largest over its places, over the largest root
-/// mean square; none where too few samples tell.
+/// The relative statistical error of the mean of each quantity of a table: the largest over its places, relative to the
+/// largest root mean square; `None` if there are too few samples.
 pub fn relative_errors(table: &TableStatistics) -> Vec<Option<f64>> {
     let mut first = 0;
     let of_group = |(_, members): (String, Vec<String>)| {
@@ -39,7 +39,7 @@ pub struct UntilError(pub f64);
 impl FromStr for UntilError {
     type Err = String;
 
-    /// `2%` or `0.02`.
+    /// Parses `2%` or `0.02`.
     fn from_str(text: &str) -> Result<Self, String> {
         let (number, scale) = match text.trim().strip_suffix('%') {
             Some(number) => (number, 0.01),
@@ -54,34 +54,34 @@ impl FromStr for UntilError {
     }
 }
 
-/// What a run waits for.
+/// Criterion by which a run stops.
 #[derive(Clone, Debug)]
 pub struct Convergence {
     /// Relative error at which it stops.
     until: f64,
-    /// Tables, or quantities of tables as `table.quantity`, that count.
+    /// Tables, or quantities of tables as `table.quantity`, that are considered.
     of: Vec<String>,
 }
 
-/// How far the means are, for the summary.
+/// Largest statistical error, for the summary.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Converged {
     /// Relative error at which the run stops.
     pub until: f64,
-    /// The largest one at its end; none where too few samples tell.
+    /// The largest error at the end of the run; `None` if there are too few samples.
     pub error: Option<f64>,
-    /// Of what, `table.quantity`.
+    /// Its quantity, `table.quantity`.
     pub of: String,
-    /// Whether all are small enough.
+    /// Whether all errors are small enough.
     pub reached: bool,
 }
 
 impl Convergence {
-    /// Stops at `until`, of the tables and quantities `of`, or where none are named of all that are of `probes`, in a run with
-    /// these tables.
+    /// Stops at the error `until` of the tables and quantities `of`, or of all `probes` if none are named, in a run with these
+    /// tables.
     ///
     /// # Errors
-    /// If there is none, or not one that is requested.
+    /// If there are no statistics, or a requested one is missing.
     pub fn new(
         until: UntilError,
         of: &[String],
@@ -124,7 +124,7 @@ impl Convergence {
         })
     }
 
-    /// How far the means of the tables are.
+    /// The present largest error of the means of `tables`.
     pub fn now(&self, tables: &[&TableStatistics]) -> Converged {
         let mut errors = Vec::new();
         for table in tables {
@@ -144,7 +144,7 @@ impl Convergence {
                     .map(|(number, name)| (name, error(number))),
             );
         }
-        // One that is not known is the worst.
+        // An unknown error is the worst.
         let size = |(_, error): &&(String, Option<f64>)| error.unwrap_or(f64::INFINITY);
         let worst = errors.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
         let (of, error) = worst.cloned().unwrap_or_default();
@@ -176,7 +176,7 @@ impl fmt::Display for Converged {
             ),
             None => write!(
                 f,
-                "  statistical error of means: not known yet, for want of samples; run longer, or let probes measure more often"
+                "  statistical error of means: not known yet, too few samples; run longer, or let probes measure more often"
             ),
         }
     }

@@ -1,4 +1,4 @@
-//! What a view shows of a fluid.
+//! The fluid in a view.
 
 use super::super::slices::SliceQuantity;
 use super::{
@@ -17,13 +17,13 @@ use riprap::{
     simulation::probe::Layer,
 };
 
-/// The cells that a view shows.
+/// The cells of the fluid that a view shows.
 pub struct Fluid {
     slices: Vec<(ViewSlice, Layer)>,
     coarse: Option<Coarse>,
-    /// Number of lines.
+    /// Number of streamlines.
     count: u32,
-    /// Ends of the colours of speeds that have none of their own, m/s.
+    /// Range of the colours of speeds without a range of their own, m/s.
     speeds: Option<[f64; 2]>,
     solids: bool,
     /// Speed of the last colour, m/s, if the view gives one.
@@ -31,7 +31,7 @@ pub struct Fluid {
 }
 
 impl Fluid {
-    /// What `view` shows of `scene`.
+    /// The fluid of `scene` as shown in `view`.
     pub fn new(scene: &Scene, view: &View) -> Self {
         let layer = |slice: &ViewSlice| {
             let middle = scene.domain.middle()[slice.axis.index()];
@@ -74,7 +74,7 @@ impl Fluid {
                     position: image.origin[axis] + 0.5 * image.spacing,
                 };
                 let mut section = Section::new(&image, plane, shown.quantity())?;
-                // Solids stand before their cells as blocks do.
+                // Solids cover their cells as blocks do.
                 section.leave_out(&placed(run, poses));
                 let range = match slice.field {
                     SliceField::Speed => slice.range.or(self.speeds),
@@ -85,7 +85,7 @@ impl Fluid {
             .collect()
     }
 
-    /// The present lines along the flow among blocks at `poses`, if the view shows any.
+    /// The present streamlines among blocks at `poses`, if the view shows any.
     pub fn traces(&self, run: &mut SceneRun, poses: &[Pose]) -> Result<Option<Traces>> {
         let Some(coarse) = &self.coarse else {
             return Ok(None);
@@ -96,7 +96,7 @@ impl Fluid {
         Ok(Some(Traces { lines, colours }))
     }
 
-    /// `field` and what is solid on `cells`, which `frame` is made of.
+    /// `field` and the solid cells among `cells`, in the image `frame`.
     fn image(
         &self,
         run: &mut SceneRun,
@@ -115,7 +115,7 @@ impl Fluid {
     }
 }
 
-/// Most cells that lines along a flow are followed through: 64 MB of velocities, and more than a picture has pixels.
+/// Most cells through which streamlines are followed: 64 MB of velocities, and more than a picture has pixels.
 const MOST_CELLS: f64 = 4e6;
 
 /// Every n-th cell of a scene along each axis, as an image of its own.
@@ -130,7 +130,7 @@ impl Coarse {
         let counts = scene.cells();
         let all: f64 = counts.iter().map(|n| f64::from(*n)).product();
         let stride = (all / MOST_CELLS).cbrt().ceil().max(1.0) as u32;
-        // The middle one of each group, so that the cells have the place of the group.
+        // The middle cell of each group, so that the coarse cells are centred on their groups.
         let taken = counts.map(|n| (stride.min(n) / 2..n).step_by(stride as usize));
         let [x, y, z] = taken.clone();
         let index = |i: u32, j: u32, k: u32| i + counts[0] * (j + counts[1] * k);
@@ -156,12 +156,12 @@ impl Coarse {
         }
     }
 
-    /// Its cells as places in an array over the domain, x fastest.
+    /// Indices of its cells in an array over the domain, x fastest.
     fn cells(&self) -> &[u32] {
         &self.cells
     }
 
-    /// The cells as an image without arrays, to be filled on [`Self::cells`].
+    /// The coarse cells as an image without arrays, to be filled on [`Self::cells`].
     fn frame(&self) -> Image {
         self.frame.clone()
     }

@@ -1,4 +1,4 @@
-//! What a picture shows, at one time.
+//! Content of a picture at one time.
 
 use super::fluid::Fluid;
 use super::{super::scene_run::SceneRun, shown::each_shape};
@@ -10,13 +10,13 @@ use anyhow::Result;
 use riprap::{geometry::Pose, rock::Motion};
 use std::{collections::HashMap, sync::Arc};
 
-/// What there is now of the blocks of `run`, and of its `fluid`, without the meshes of the blocks.
+/// The present state of the blocks of `run` and of its `fluid`, without the meshes of the blocks.
 pub fn frame(run: &mut SceneRun, fluid: &Fluid) -> Result<Drawing<'static>> {
     let poses = run.poses();
     let planes = fluid.planes(run, &poses)?;
     let traces = fluid.traces(run, &poses)?;
     let drops = run.drops(fluid.speed())?;
-    // Two scales of colours for speeds in one picture would be mixed up.
+    // Two colour scales for speeds in one picture would be confused.
     let coloured = planes.is_empty() && traces.is_none() && drops.is_none();
     Ok(Drawing {
         time: Some(run.time()),
@@ -63,7 +63,7 @@ pub fn share_ranges(frames: &mut [Drawing<'_>]) {
         let reached = reached.get(&colours.label).copied().unwrap_or_default();
         let [low, high] = extremes(reached.into_iter());
         colours.range = Some(match colours.label.as_str() {
-            // A length means something only against zero.
+            // Speeds are shown relative to zero.
             "speed" => [0.0, high],
             _ => Palette::fitting([low, high]).1,
         });

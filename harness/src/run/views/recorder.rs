@@ -1,5 +1,5 @@
-//! Pictures in space: `NAME_000123.png`, some of them side by side as `NAME_strip.png`, and all
-//! of them in turn as `NAME.png`. A background thread draws each picture in parallel with the simulation.
+//! Pictures in space: `NAME_000123.png`, some of them next to each other as `NAME_strip.png`, and all of them as the
+//! animation `NAME.png`. A background thread draws each picture in parallel with the simulation.
 
 use super::super::{
     recorder::{Recorder, RunLog, Schedule},
@@ -16,11 +16,11 @@ use std::{
     time::Duration,
 };
 
-/// How long an animation takes, unless its frames would then flicker or stand still.
+/// Duration of an animation, unless its frames would then be too short or too long.
 const LENGTH: Duration = Duration::from_secs(8);
-/// Shortest time for a frame.
+/// Shortest duration of a frame.
 const BRIEFEST: Duration = Duration::from_millis(40);
-/// Longest time for a frame.
+/// Longest duration of a frame.
 const LONGEST: Duration = Duration::from_millis(500);
 
 /// The pictures of a view.
@@ -31,9 +31,9 @@ pub struct Views {
     adapter: Option<String>,
     folder: PathBuf,
     last: u64,
-    /// Made with the first picture.
+    /// Created with the first picture.
     stage: Option<Arc<Stage>>,
-    /// Why it could not be made.
+    /// Why it could not be created.
     failed: Option<String>,
     /// The picture that a background thread draws.
     in_progress: Option<(PathBuf, JoinHandle<Result<()>>)>,
@@ -78,7 +78,7 @@ impl Views {
             return Ok(Arc::clone(stage));
         }
         let made = Stage::new(run, &self.view, self.adapter.as_deref(), frame);
-        // It would fail again, and open a device for each picture.
+        // Do not try again for each picture: it would open a device and fail each time.
         let stage = made.inspect_err(|error| self.failed = Some(format!("{error:#}")))?;
         Ok(Arc::clone(self.stage.insert(Arc::new(stage))))
     }
@@ -93,15 +93,15 @@ impl Views {
         Ok(())
     }
 
-    /// Whether the strip wants a frame by now.
+    /// Whether the frame at `step` belongs in the strip.
     fn wanted(&self, step: u64) -> bool {
         let count = u64::from(self.view.strip);
         let next = self.strip.len() as u64;
         next < count && step * (count - 1).max(1) >= next * self.last
     }
 
-    /// The pictures in the folder, in the order of their steps, that this run or those that it goes on
-    /// from have made until `step`.
+    /// The pictures in the folder, in the order of their steps, that this run or those that it continues have drawn until
+    /// `step`.
     fn frames(&self, step: u64) -> Vec<PathBuf> {
         let mut found = Vec::new();
         let mut at = 0;

@@ -18,7 +18,7 @@ use std::{collections::HashMap, sync::Arc};
 const SPHERE_RADIUS: f64 = 0.62;
 
 impl SceneRun {
-    /// The blocks, static solids last; none where there is only a fluid in a box.
+    /// The blocks, static solids last; none for a fluid in an empty box.
     pub(in super::super) fn blocks(&self) -> &[Block] {
         match self.rock() {
             Some(rock) => &rock.setup.blocks[..rock.shown],
@@ -46,7 +46,7 @@ impl SceneRun {
         }
     }
 
-    /// The particles of free water, if there is any; `speed` (m/s) has the last colour, if it is given.
+    /// The particles of free water, if there is any; `speed` (m/s), if given, is that of the last colour.
     pub(in super::super) fn drops(&mut self, speed: Option<f64>) -> Result<Option<Drops>> {
         if self.simulation.particles().is_none() {
             return Ok(None);
@@ -71,12 +71,12 @@ impl SceneRun {
     }
 }
 
-/// The convex parts of the blocks of `run`, where `poses` say.
+/// The convex parts of the blocks of `run` at `poses`.
 pub fn placed<'a>(run: &'a SceneRun, poses: &[Pose]) -> Vec<Placed<'a>> {
     parts(run.blocks(), poses)
 }
 
-/// Those of the blocks that are no static solids.
+/// The parts of the blocks that are not static solids.
 pub fn immersed<'a>(run: &'a SceneRun, poses: &[Pose]) -> Vec<Placed<'a>> {
     let blocks = run.blocks();
     parts(&blocks[..blocks.len() - run.solids()], poses)
@@ -94,7 +94,7 @@ fn parts<'a>(blocks: &'a [Block], poses: &[Pose]) -> Vec<Placed<'a>> {
     parts.collect()
 }
 
-/// Calls `with` for each different shape; says which of all their parts is the first of each.
+/// Calls `with` for each different shape; returns the index of its first part among the parts of all of them.
 pub fn each_shape(blocks: &[Block], mut with: impl FnMut(&Shape)) -> HashMap<*const Shape, usize> {
     let mut first = HashMap::new();
     let mut parts = 0;
@@ -109,14 +109,14 @@ pub fn each_shape(blocks: &[Block], mut with: impl FnMut(&Shape)) -> HashMap<*co
     first
 }
 
-/// The solids of a scene as fixed blocks. What encloses no volume, or cannot be cut into convex parts, is left to the
-/// cells to show, and so are the holes of meshes.
+/// The solids of a scene as fixed blocks. Solids that enclose no volume or cannot be cut into convex parts are only shown
+/// by their cells, and so are the holes of meshes.
 pub fn solid_blocks(scene: &Scene) -> Vec<Block> {
     let one = |index: usize| {
         let mut alone = scene.clone();
         alone.solids = vec![scene.solids[index].clone()];
         alone.solids[0].material = None;
-        // Nothing depends on it: nothing moves.
+        // The values are irrelevant: nothing moves.
         alone.materials = vec![Material {
             name: String::new(),
             density: 1.0,
@@ -133,7 +133,7 @@ pub fn solid_blocks(scene: &Scene) -> Vec<Block> {
         alone.blocks.clear();
         alone.rock_masses.clear();
         alone.probes.clear();
-        // After it come the faces of the domain that hold blocks, which are none to be seen.
+        // The first block is the solid; those after it represent faces of the domain and are not shown.
         block_setup(&alone).map(|made| made.setup.blocks.into_iter().next())
     };
     let drawn = (0..scene.solids.len()).filter(|index| !scene.solids[*index].void);
@@ -143,7 +143,7 @@ pub fn solid_blocks(scene: &Scene) -> Vec<Block> {
         .collect()
 }
 
-/// Where a block is that does not move.
+/// The pose of a block that does not move.
 fn pose(block: &Block) -> Pose {
     Pose::rigid(block.centre, block.rotation, block.velocity, block.spin)
 }

@@ -1,4 +1,4 @@
-//! What a view shows: the meshes of the blocks, the camera and the colours, the same in every picture.
+//! The constant part of a view: the meshes of the blocks, the camera and the colours.
 
 use super::frame::{colours, share_ranges};
 use super::{super::scene_run::SceneRun, shown::each_shape};
@@ -15,24 +15,24 @@ use riprap::{
     wgpu,
 };
 
-/// Cuts of an edge of the icosahedron that a sphere is drawn as.
+/// Subdivisions of an edge of the icosahedron by which a sphere is drawn.
 const CUTS: u32 = 4;
 
 /// Colour and width (pixels) of the edges of the domain.
 const EDGE: ([u8; 3], f64) = ([150, 150, 150], 1.0);
 
-/// Everything for the pictures of a view but what moves.
+/// Everything for the pictures of a view except what moves.
 pub struct Stage {
     renderer: Renderer,
-    /// Of half the size, for strips.
+    /// Renderer of half the size, for strips.
     small: Renderer,
     title: String,
     meshes: Vec<Mesh>,
-    /// Edges of the domain, where lines run through all of it.
+    /// Edges of the domain, if streamlines run through all of it.
     edges: Vec<Line>,
     camera: View,
     ground: Option<Ground>,
-    /// Speed of a block's last colour, m/s; none where blocks have no colours.
+    /// Speed of the last colour of blocks, m/s; `None` if blocks are not coloured.
     speed: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ impl Stage {
         self.renderer.render(&self.drawing(frame))
     }
 
-    /// The frames side by side, two in a row.
+    /// The frames next to each other, two per row.
     pub fn strip(&self, mut frames: Vec<Drawing<'static>>) -> Result<Picture> {
         share_ranges(&mut frames);
         let drawings = frames.into_iter().map(|frame| self.drawing(frame));
@@ -105,7 +105,7 @@ impl Stage {
     }
 }
 
-/// The camera that a view gives, or how to find one.
+/// The camera that a view gives, or a rule to place it.
 fn camera(scene: &Scene, view: &scene::View) -> View {
     let up = DVec3::from(scene.up_of(view));
     let field_of_view = view.field_of_view.to_radians();
@@ -127,15 +127,15 @@ fn camera(scene: &Scene, view: &scene::View) -> View {
     }
 }
 
-/// What of the first frame the camera shall see, which must not depend on the step that a run begins with.
+/// The content of the first frame by which the camera is placed; independent of the step at which a run begins.
 fn framed(frame: &Drawing<'static>) -> Drawing<'static> {
     let mut seen = frame.clone();
     let fluid = seen.traces.is_some() || seen.drops.is_some() || !seen.planes.is_empty();
-    // A ground that reaches far would push the camera away from what moves on it.
+    // A large ground would push the camera away from what moves on it.
     if fluid || seen.instances.iter().any(|body| !body.fixed) {
         seen.instances.retain(|body| !body.fixed);
     }
-    // The edges of the domain hold all water.
+    // The edges of the domain enclose all water.
     if let Some(drops) = &mut seen.drops {
         drops.drops.clear();
     }
@@ -143,7 +143,7 @@ fn framed(frame: &Drawing<'static>) -> Drawing<'static> {
         traces.lines.clear();
     }
     for colours in colours(&mut seen) {
-        // Colour bars of about the usual width.
+        // Makes colour bars of about the usual width.
         colours.range.get_or_insert([0.0, 1.0]);
     }
     seen
@@ -177,7 +177,7 @@ fn edges(domain: &Domain) -> Vec<Line> {
         .collect()
 }
 
-/// √(2gL), L the largest extent of a block that moves; without gravity the largest speed now, m/s.
+/// √(2gL), where L is the largest extent of a moving block; without gravity, the largest present speed, m/s.
 fn usual_speed(run: &SceneRun) -> f64 {
     let blocks = run.blocks().iter();
     let moving = blocks.filter(|block| block.motion != Motion::Fixed);

@@ -1,4 +1,4 @@
-//! Meshes, spoilt.
+//! Corrupted meshes.
 
 use super::{Dice, judge};
 use riprap::{
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 const COUNT: usize = 10_000;
 
-/// Corners of a box and the two triangles of each face, from outside counter-clockwise.
+/// Corners of a box and the two triangles of each face, counter-clockwise seen from outside.
 const CORNERS: [[f32; 3]; 8] = [
     [0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0],
@@ -71,7 +71,7 @@ fn obj() -> Vec<u8> {
     text.into_bytes()
 }
 
-/// What may stand somewhere in the file.
+/// Pieces inserted anywhere in the file.
 const SCRAPS: [&[u8]; 16] = [
     b"nan",
     b"inf",
@@ -104,7 +104,7 @@ fn spoil(bytes: &mut Vec<u8>, dice: &mut Dice) {
             bytes.splice(place..place, part);
         }
         3 => bytes[at] ^= 1 << dice.below(8),
-        // Where binary files have the number of triangles.
+        // Position of the number of triangles in binary files.
         4 if bytes.len() > 84 => {
             let count = dice.roll() as u32 >> dice.below(32);
             bytes[80..84].copy_from_slice(&count.to_le_bytes());
@@ -123,7 +123,7 @@ fn spoil(bytes: &mut Vec<u8>, dice: &mut Dice) {
 
 fn read(path: &Path) -> Result<()> {
     let mesh = TriangleMesh::read(path, 1.0, [0.0; 3])?;
-    // What a scene does with it: a block of it, and a block of its corners.
+    // As a scene does: makes a block of the mesh, and a block of its corners.
     riprap::geometry::Shape::from_mesh(&mesh)?;
     Polyhedron::from_vertices(&mesh.vertices)?;
     Ok(())

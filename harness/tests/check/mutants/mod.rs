@@ -1,5 +1,5 @@
-//! Thousands of spoilt scenes and meshes: each is read or refused with a place, without a panic, a hang or a
-//! great allocation.
+//! Thousands of corrupted scenes and meshes: each is either read or refused with a place, without a panic, a hang or a
+//! large allocation.
 
 mod meshes;
 mod scenes;
@@ -11,7 +11,7 @@ use std::{
     time::Duration,
 };
 
-/// Numbers that are the same in every run (Steele, Lea & Flood 2014, SplitMix64).
+/// Pseudorandom numbers, the same in every run (Steele, Lea & Flood 2014, SplitMix64).
 struct Dice(u64);
 
 impl Dice {
@@ -33,12 +33,12 @@ impl Dice {
     }
 }
 
-/// Longest time for one input: a thousand times what the slowest right one takes.
+/// Longest time for one input: a thousand times that of the slowest valid one.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Bytes that the process may have taken at its largest; the right inputs take a tenth.
+/// Largest peak memory of the process, bytes; valid inputs take a tenth.
 const MEMORY: u64 = 1 << 30;
 
-/// Runs `read` on each input and looks at what came.
+/// Runs `read` on each input and checks the result.
 fn judge<T: Send + 'static>(
     inputs: impl Iterator<Item = T> + Send + 'static,
     bytes: fn(&T) -> &[u8],
@@ -47,13 +47,13 @@ fn judge<T: Send + 'static>(
     let (tell, heard) = mpsc::channel();
     let present = Arc::new(Mutex::new(Vec::new()));
     let kept = Arc::clone(&present);
-    // In a thread of its own: what hangs cannot be stopped, only waited for.
+    // In its own thread: an input that hangs cannot be stopped, only timed out.
     std::thread::spawn(move || {
         let (mut good, mut refused) = (0, 0);
         for (number, input) in inputs.enumerate() {
             bytes(&input).clone_into(&mut kept.lock().unwrap());
             if number % 500 == 0 {
-                // Where a process ended that could say no more.
+                // Shows the last input if the process is killed.
                 println!("input {number}");
             }
             let verdict = match catch_unwind(AssertUnwindSafe(|| read(&input))) {
@@ -90,11 +90,11 @@ fn judge<T: Send + 'static>(
         }
     }
     println!("{} read, {} refused", counts.0, counts.1);
-    // Both happen, or the inputs say nothing.
+    // Both must occur for the inputs to be a test.
     assert!(counts.0 > 20 && counts.1 > 100, "{counts:?}");
 }
 
-/// An error names a line, a key, a file or a block, and says something.
+/// Checks that an error names a line, a key, a file or a block, and has a message.
 fn has_a_place(error: &Error) -> std::result::Result<(), String> {
     let named = match error {
         Error::Scene {
@@ -116,7 +116,7 @@ fn has_a_place(error: &Error) -> std::result::Result<(), String> {
     }
 }
 
-/// Whether the process has stayed small, where the system tells.
+/// Checks that the process has used little memory, if the system reports it.
 fn small() -> std::result::Result<(), String> {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

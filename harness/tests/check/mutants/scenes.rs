@@ -1,4 +1,4 @@
-//! The scenes that ship, spoilt.
+//! Corrupted versions of the shipped scenes.
 
 use super::{Dice, judge};
 use riprap::{
@@ -12,14 +12,14 @@ use riprap::{
 use std::path::{Path, PathBuf};
 
 const COUNT: usize = 10_000;
-/// Cells of a lattice that is set up on the host.
+/// Largest number of cells of a lattice that is set up on the host.
 const MOST_CELLS: f64 = 1e5;
-/// Particles that are laid.
+/// Largest number of particles that are placed.
 const MOST_PARTICLES: f64 = 2e4;
-/// Blocks in rows that are made.
+/// Largest number of blocks in arrays that are created.
 const MOST_COPIES: f64 = 1e3;
 
-/// What may stand where a value should.
+/// Replacements of values.
 const VALUES: [&str; 34] = [
     "0",
     "-1",
@@ -56,7 +56,7 @@ const VALUES: [&str; 34] = [
     "1979-05-27",
     "\"../../../../etc/passwd\"",
 ];
-/// What may stand somewhere in the text.
+/// Pieces inserted anywhere in the text.
 const SCRAPS: [&str; 14] = [
     "=",
     "[[",
@@ -78,7 +78,7 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
 }
 
-/// Names and texts, in the order of the names.
+/// Names and texts of the shipped scenes, in the order of the names.
 fn shipped() -> Vec<(String, String)> {
     let files = std::fs::read_dir(folder()).unwrap();
     let mut all: Vec<_> = files
@@ -157,7 +157,7 @@ fn spoil(text: &str, dice: &mut Dice) -> String {
             format!("{}{}{}", &text[..at], dice.pick(&SCRAPS), &text[at..])
         }
         5 => {
-            // A slip in a letter.
+            // A typing error in one letter.
             let at = boundary(text, dice);
             let next = text[at..].chars().next().map_or(0, char::len_utf8);
             format!("{}{}", &text[..at], &text[at + next..])
@@ -173,8 +173,8 @@ fn spoil(text: &str, dice: &mut Dice) -> String {
     }
 }
 
-/// All that is done with a scene before there is a device, where it is small: of one in four, since it takes longer
-/// than all else.
+/// Does everything that is done with a small scene before a device is needed; the `deep` part only for one of four, since
+/// it takes longer than all else.
 fn read(name: &str, text: &str, deep: bool) -> Result<()> {
     let scene = Scene::from_toml(text, &folder(), name)?;
     if !deep {

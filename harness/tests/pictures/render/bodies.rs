@@ -1,4 +1,4 @@
-//! Bodies and lines are where the camera sees them, and nearer ones hide farther ones.
+//! Bodies and lines are drawn where the camera sees them, and nearer ones hide farther ones.
 
 use super::fixture::{
     WHITE, body, body_in_the_middle_row, drawing, extent, level, plain_cube, render, speed,
@@ -42,7 +42,7 @@ fn meshes_drawn_together_look_like_meshes_with_many_instances() {
         let place = |index: usize| DVec3::new((index % 4) as f64, 0.0, (index / 4) as f64) * 1.3;
         let bodies = (0..12).map(|index| Instance {
             mesh: if distinct { index } else { 0 },
-            // Stretched as well as turned: normals must turn with the surface.
+            // Stretched as well as rotated: normals must follow the surface.
             deformation: DMat3::from_diagonal(DVec3::new(1.0, 0.6, 0.8))
                 * DMat3::from_rotation_x(index as f64),
             value: Some(index as f64),
@@ -58,7 +58,7 @@ fn meshes_drawn_together_look_like_meshes_with_many_instances() {
         };
         render(&drawing, size)
     });
-    // Rounding may decide a sample of an outline otherwise.
+    // Rounding may change single samples of an outline.
     let far = one
         .rgba
         .iter()
@@ -73,7 +73,7 @@ fn meshes_drawn_together_look_like_meshes_with_many_instances() {
 fn far_from_the_origin_a_picture_is_the_same() {
     let size = [160, 120];
     let meshes = [Mesh::of(&Polyhedron::cuboid(DVec3::ONE).expect("a cube"))];
-    // Places in eighths of a metre are exact in f64 at both ends, and not in f32 at the far one.
+    // Positions in eighths of a metre are exact in f64 at both origins, and not in f32 at the far one.
     let [here, there] = [DVec3::ZERO, DVec3::new(3e8, -5e8, 1e8)].map(|origin| {
         let camera = Camera {
             from: origin + DVec3::new(4.0, -8.0, 6.0),
@@ -138,7 +138,7 @@ fn a_line_has_its_width_and_colour_and_is_cut_at_the_eye() {
         .filter(|&y| across.pixel(100, y) == [200, 30, 60])
         .count();
     assert!((4..=5).contains(&rows), "{rows} rows");
-    // From far in front to behind the eye, below it: a line down the middle, nothing elsewhere.
+    // From far in front of the eye to behind it, below it: a line down the middle, nothing elsewhere.
     let along = with([DVec3::new(0.0, 50.0, -1.0), DVec3::new(0.0, -60.0, -1.0)]);
     let [columns, rows] = extent(&along);
     assert!(columns[0] >= 96 && columns[1] <= 103, "{columns:?}");

@@ -23,7 +23,7 @@ fn drops(radius: f64, centres: &[DVec3]) -> Option<Drops> {
     })
 }
 
-/// What is seen of `drawing` without its colour bar: from 10 m along +y.
+/// The picture of balls and a cube without colour bar, seen from 10 m along +y.
 fn seen(drops: Option<Drops>, cube: Option<DVec3>) -> riprap_harness::render::Picture {
     let meshes = [plain_cube()];
     render(
@@ -35,7 +35,7 @@ fn seen(drops: Option<Drops>, cube: Option<DVec3>) -> riprap_harness::render::Pi
     )
 }
 
-/// Whether a pixel has the blue of the lowest value under some light.
+/// Whether a pixel has the blue of the lowest value, in any light.
 fn is_blue([r, g, b]: [u8; 3]) -> bool {
     b > g && g > r && b > r.saturating_add(30)
 }
@@ -53,7 +53,7 @@ fn a_ball_is_round_and_as_large_as_it_is() {
         let all = blue.iter().map(|at| at[axis]);
         (all.clone().max().unwrap() - all.min().unwrap() + 1) as f64
     };
-    // 300 pixels are 2 · 10 tan 7.5° = 2.633 m: a metre is 114 of them.
+    // 300 pixels are 2 · 10 tan 7.5° = 2.633 m, so that a metre has 114 pixels.
     let diameter = 300.0 / (20.0 * 7.5_f64.to_radians().tan());
     assert!((span(0) - diameter).abs() < 4.0, "{} {diameter}", span(0));
     assert!((span(1) - diameter).abs() < 4.0, "{} {diameter}", span(1));
@@ -75,10 +75,10 @@ fn balls_hide_and_are_hidden_by_their_depth() {
     assert!(is_blue(middle(&seen(small, Some(DVec3::ZERO)))));
     let behind = drops(0.1, &[DVec3::new(0.0, 0.7, 0.0)]);
     assert!(!is_blue(middle(&seen(behind, Some(DVec3::ZERO)))));
-    // Half in the face of the cube, at y = −0.5: its front is seen.
+    // Half inside the face of the cube, at y = −0.5: its front is visible.
     let half = drops(0.2, &[DVec3::new(0.0, -0.45, 0.0)]);
     assert!(is_blue(middle(&seen(half, Some(DVec3::ZERO)))));
-    // Its centre nearer than the face, but all of it in the cube.
+    // Its centre is nearer to the face, but all of it is inside the cube.
     let inside = drops(0.2, &[DVec3::new(0.0, -0.2, 0.0)]);
     assert!(!is_blue(middle(&seen(inside, Some(DVec3::ZERO)))));
 }

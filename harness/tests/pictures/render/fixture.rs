@@ -1,4 +1,4 @@
-//! What tests of pictures in space share: a device, a cube, cameras, and where they see what.
+//! Shared by tests of pictures in space: a device, a cube, cameras, and projections of points.
 
 use glam::{DMat3, DVec3};
 use riprap::geometry::Polyhedron;
@@ -11,7 +11,7 @@ pub const WHITE: [u8; 3] = [255; 3];
 
 pub static DEVICE: LazyLock<(wgpu::Device, wgpu::Queue)> = LazyLock::new(|| {
     let adapter = gpu::pick(None).expect("an adapter");
-    // No more than every device of WebGPU has.
+    // Limits that every WebGPU device has.
     gpu::open(&adapter, wgpu::Features::empty(), wgpu::Limits::default()).expect("a device")
 });
 
@@ -52,7 +52,7 @@ pub fn drawing(meshes: &[Mesh], instances: Vec<Instance>, camera: Camera) -> Dra
     }
 }
 
-/// Along +y from 10 m before the origin.
+/// Along +y from 10 m in front of the origin.
 pub fn level() -> Camera {
     Camera {
         from: DVec3::new(0.0, -10.0, 0.0),
@@ -62,7 +62,7 @@ pub fn level() -> Camera {
     }
 }
 
-/// From the right and above, 10 m from the origin: three faces of a cube there are seen.
+/// From the right and above, 10 m from the origin, with three faces of a cube there in view.
 pub fn oblique() -> Camera {
     Camera {
         from: 10.0 * DVec3::new(0.4, -0.8, 0.6).normalize(),
@@ -78,7 +78,7 @@ pub fn speed(range: [f64; 2]) -> Option<Colours> {
     })
 }
 
-/// Where a pinhole camera sees a point, pixels from the upper left.
+/// The projection of a point by a pinhole camera, pixels from the upper left.
 pub fn seen(camera: &Camera, [width, height]: [u32; 2], point: DVec3) -> [f64; 2] {
     let forward = (camera.to - camera.from).normalize();
     let right = forward.cross(camera.up).normalize();

@@ -1,4 +1,4 @@
-//! Planes through a fluid and traces of its flow, among blocks.
+//! Planes through a fluid and its streamlines, among blocks.
 
 use super::fixture::{
     WHITE, body, drawing, level, linear, oblique, pixel_at, plain_cube, render, seen, speed,
@@ -15,7 +15,7 @@ fn pressure(range: [f64; 2]) -> Colours {
     }
 }
 
-/// 4 × 2 cells of 0.5 m around the origin in the plane y = `position`, whose values count from 0.
+/// 4 × 2 cells of 0.5 m around the origin in the plane y = `position`, with the values 0, 1, ….
 fn counting(position: f64) -> FluidPlane {
     FluidPlane {
         plane: Plane {
@@ -38,7 +38,7 @@ fn viridis(fraction: f64) -> [u8; 3] {
 /// The camera of a drawing without title and bars in pictures of `SIZE`.
 const SIZE: [u32; 2] = [640, 240];
 
-/// Width that a picture's colour bars leave to its view.
+/// Width of the view next to a picture's colour bars.
 fn view_width(drawing: &Drawing<'_>) -> u32 {
     let sky = Drawing {
         background: riprap_harness::render::Background::Sky,
@@ -102,7 +102,7 @@ fn a_block_is_seen_before_its_plane_and_not_behind_it() {
     for y in [-0.7, 0.0] {
         let [block, beside] = with(y);
         assert_eq!(beside, water);
-        // Sandstone, which is redder than blue.
+        // Sandstone is redder than blue.
         assert!(block[0] > block[2] && block != water, "{block:?} at {y}");
     }
 }
@@ -130,7 +130,7 @@ fn a_plane_of_cells_finer_than_pixels_has_their_mean_light() {
     let ends = [viridis(0.0), viridis(1.0)];
     for channel in 0..3 {
         let mean = 0.5 * (linear(ends[0][channel]) + linear(ends[1][channel]));
-        // A step of 8 bits is at most 0.01 of linear light, and each of the copies has rounded once.
+        // A step of 8 bits is at most 0.01 of linear light, and each mip level has rounded once.
         assert!((linear(found[channel]) - mean).abs() < 0.02, "{found:?}");
     }
 }
@@ -191,13 +191,13 @@ fn a_trace_has_its_speeds_colours_between_dark_rims() {
         let drawn = rows.iter().filter(|row| **row != WHITE).count();
         (rows, drawn)
     };
-    // The arrow head of 20 pixels stands in the middle, and a metre has 91 pixels here.
+    // The arrow head of 20 pixels is in the middle, and a metre has 91 pixels here.
     assert!(rows_at(36).1 > 10);
     for segment in (2..30).chain(48..78) {
         let (column, drawn) = rows_at(segment);
         assert!((4..=6).contains(&drawn), "{drawn} rows");
         let wants = viridis((f64::from(segment) + 0.5) / 80.0);
-        // Segments are two pixels long and overlap with their neighbours: a pixel has one of three colours, or a mean.
+        // Segments are two pixels long and overlap with their neighbours: a pixel has one of three colours, or a mean of them.
         let three = [-1.0, 0.0, 1.0].map(|by| viridis((f64::from(segment) + 0.5 + by) / 80.0));
         let near = |p: &[u8; 3]| {
             (0..3).all(|channel| {
@@ -211,7 +211,7 @@ fn a_trace_has_its_speeds_colours_between_dark_rims() {
         let found: Vec<usize> = found.collect();
         assert!(!found.is_empty(), "{wants:?} is not in {column:?}");
         let (first, last) = (found[0], found[found.len() - 1]);
-        // At either side a row that is part rim, if not all.
+        // On either side, a row that is at least partly rim.
         for side in [first - 1, last + 1] {
             let rim = linear(column[side][1]) / linear(wants[1]);
             assert!(rim < 0.7, "{rim} of {column:?}");

@@ -1,4 +1,4 @@
-//! What stands around a view, and what a camera chooses to see.
+//! Annotations around a view, and the framing by the camera.
 
 use super::fixture::{body, drawing, extent, level, plain_cube, render};
 use glam::{DMat3, DVec3};
@@ -96,7 +96,7 @@ fn a_framing_camera_fits_all_blocks_into_the_view() {
             [first, size - 1 - last].map(|pixels| f64::from(pixels) / f64::from(size))
         };
         let (x, y) = (free(columns, size[0]), free(rows, size[1]));
-        // The margin is 0.06 of half of the view; one of the directions uses it up.
+        // The margin is 0.06 of half of the view; in one of the directions nothing more is left.
         let least = x.into_iter().chain(y).fold(1.0, f64::min);
         assert!(least > 0.02, "{direction}: {x:?} {y:?}");
         let tight = x.iter().all(|free| *free < 0.05) || y.iter().all(|free| *free < 0.05);

@@ -1,5 +1,5 @@
-//! Pictures in space: bodies are where the camera sees them, nearer ones hide farther ones, colours and lengths
-//! can be read, and what cannot be drawn is said.
+//! Pictures in space: bodies are drawn where the camera sees them, nearer ones hide farther ones, colours and lengths
+//! are readable, and what cannot be drawn is reported.
 
 mod bodies;
 mod drops;

@@ -1,4 +1,4 @@
-//! What cannot be drawn is said.
+//! What cannot be drawn is reported.
 
 use super::fixture::{DEVICE, body, level, plain_cube, renderer, speed};
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Lines along a flow in space: along the flow, spread over the fluid, around what is not fluid.
+//! Streamlines in space follow the flow, are spread over the fluid, and avoid cells without fluid.
 
 use glam::{DMat3, DVec3};
 use riprap::geometry::{Form, Polyhedron};
@@ -32,10 +32,10 @@ fn image(velocity: impl Fn(DVec3) -> DVec3) -> Image {
 
 #[test]
 fn traces_of_a_turning_flow_stay_on_their_helices_with_their_speeds() {
-    // A rigid turn about the axis x at (1, 1), drifting along x: u = (1, −(z − 1), y − 1).
+    // A rigid rotation about the axis x at (1, 1), moving along x: u = (1, −(z − 1), y − 1).
     let helices = traces(&image(|x| DVec3::new(1.0, 1.0 - x.z, x.y - 1.0)), &[], 30);
     let radius = |x: DVec3| (x.y - 1.0).hypot(x.z - 1.0);
-    // Beyond the outermost centres the velocity is that of these, so that lines there are no helices.
+    // Beyond the outermost centres the velocity is constant, so that lines there are no helices.
     let inner = |x: &DVec3| (x.y - 1.0).abs().max((x.z - 1.0).abs()) < 0.95;
     let mut whole = 0;
     for trace in &helices {
@@ -47,7 +47,7 @@ fn traces_of_a_turning_flow_stay_on_their_helices_with_their_speeds() {
         whole += 1;
         let first = radius(trace.points[0]);
         for (x, speed) in trace.points.iter().zip(&trace.speeds) {
-            // Trilinear interpolation of a linear field is exact, and 80 steps of half a cell err by 1e-8 each.
+            // Trilinear interpolation of a linear field is exact, and the error of 80 steps of half a cell is 1e-8 each.
             assert!((radius(*x) - first).abs() < 1e-5, "{x} from {first}");
             // f32 has seven digits.
             assert!((speed - 1.0_f64.hypot(radius(*x))).abs() < 1e-6, "{speed}");
@@ -59,8 +59,8 @@ fn traces_of_a_turning_flow_stay_on_their_helices_with_their_speeds() {
 #[test]
 fn traces_keep_apart_and_leave_no_part_of_the_fluid_out() {
     let along = traces(&image(|_| DVec3::X), &[], 40);
-    // Lines along x through a square of 2 m: 40 of them have 0.40 m each, and seeds keep half of the distance that
-    // lines in a cube of the same volume would have, ∛16/√40 m.
+    // Lines along x through a square of 2 m: 40 of them have 0.40 m each, and seeds keep half of the distance that lines in
+    // a cube of the same volume would have, ∛16/√40 m.
     let apart = 0.5 * 16.0_f64.cbrt() / 40.0_f64.sqrt();
     for (number, one) in along.iter().enumerate() {
         assert!(
@@ -73,7 +73,7 @@ fn traces_keep_apart_and_leave_no_part_of_the_fluid_out() {
             assert!(distance > apart - 1e-9, "{distance}");
         }
     }
-    // No place of the square is farther from all lines than two of these distances.
+    // No point of the square is farther from all lines than two of these distances.
     for (y, z) in
         (0..20).flat_map(|y| (0..20).map(move |z| (0.1 * f64::from(y), 0.1 * f64::from(z))))
     {

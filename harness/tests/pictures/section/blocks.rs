@@ -1,4 +1,4 @@
-//! Blocks that a plane cuts, and how they are drawn.
+//! Sections of blocks by a plane, and how they are drawn.
 
 use super::fixture::{Rgb, file, read, slice};
 use glam::{DMat3, DVec3};
@@ -7,7 +7,7 @@ use riprap::output::{Array, Image};
 use riprap_harness::picture::{Palette, Placed, Plane, Quantity};
 use std::f64::consts::{FRAC_PI_4, PI};
 
-/// A cube of 1 m whose place is (1, 1, 0.75), turned about z by 45°, and a ball of 0.5 m at its side.
+/// A cube of 1 m at (1, 1, 0.75), rotated about z by 45°, and a ball of 0.5 m at its side.
 fn cut_blocks() -> [(Form, DVec3, DMat3); 2] {
     let cube = Form::Convex(Polyhedron::cuboid(DVec3::ONE).expect("a cube"));
     let ball = Form::Sphere { radius: 0.5 };
@@ -94,7 +94,7 @@ fn blocks_are_drawn_over_the_slice_and_their_cells_do_not_stretch_the_colours() 
         spacing: 0.1,
         cells,
         arrays: vec![
-            // As a fluid with immersed blocks is written.
+            // As written for a fluid with immersed blocks.
             Array {
                 name: "solid".into(),
                 components: 1,
@@ -126,7 +126,7 @@ fn blocks_are_drawn_over_the_slice_and_their_cells_do_not_stretch_the_colours() 
     let rows: Vec<usize> = rows.map(|at| at / width).collect();
     // Half of the border's line lies within on either side.
     let scale = 0.5 * (rows[rows.len() - 1] - rows[0] + 2) as f64;
-    // A square of 1 m², and of the ball a disc of radius √(0.25 − 0.0625) m, whose outlines are one pixel within.
+    // A square of 1 m², and a disc of radius √(0.25 − 0.0625) m from the ball, whose outlines are one pixel inside.
     let radius = (0.25_f64 - 0.0625).sqrt();
     let covered = (1.0 + PI * radius * radius) * scale * scale;
     let outlines = (4.0 + 2.0 * PI * radius) * scale;

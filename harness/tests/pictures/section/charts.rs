@@ -1,4 +1,4 @@
-//! Curves.
+//! Charts of curves.
 
 use super::fixture::{file, read};
 use riprap::output::Table;
@@ -53,7 +53,7 @@ fn a_curve_is_drawn_where_its_values_are() {
         let along = || places.iter().map(|place| place[axis]);
         along().min().expect("a point") + along().max().expect("a point")
     };
-    // Three discs of 5 pixels' radius, the middle one half-way between the others on log scales.
+    // Three discs of 5 pixels' radius, the middle one midway between the others on log scales.
     let about = places.iter().filter(|place| {
         (2 * place[0]).abs_diff(middle(0)) <= 12 && (2 * place[1]).abs_diff(middle(1)) <= 12
     });

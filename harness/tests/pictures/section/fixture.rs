@@ -1,4 +1,4 @@
-//! What tests of pictures share: a place for them, their pixels, and cells that are counted.
+//! Shared by tests of sections and charts: a file for a picture, its pixels, and numbered cells.
 
 use riprap::output::{Array, Image};
 use riprap_harness::picture::{Plane, Quantity, Slice};
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 pub type Rgb = [u8; 3];
 
-/// Where a test may write `name`.
+/// Path of a picture that a test may write.
 pub fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
 }
@@ -40,7 +40,7 @@ pub fn slice<'a>(quantity: Quantity<'a>, normal: usize, position: f64) -> Slice<
     }
 }
 
-/// 4 × 2 × 3 cells of 0.5 m whose pressure counts the cells; the last cell of each row is solid.
+/// 4 × 2 × 3 cells of 0.5 m whose pressure is their index; the last cell of each row is solid.
 pub fn counting() -> Image {
     let cells = [4, 2, 3];
     let count = cells.iter().product::<usize>();

@@ -1,4 +1,4 @@
-//! Maps of colours.
+//! Colour maps.
 
 use super::fixture::{Rgb, counting, file, read, slice};
 use riprap::output::{Array, Image};
@@ -63,7 +63,7 @@ fn cells_are_drawn_as_equal_rectangles_of_their_own_colour_with_y_upwards() {
     let edge = size(1.0).sqrt();
     for [low, high] in [[0.0, 4.0], [1.0, 5.0], [2.0, 6.0]] {
         for value in [low, high] {
-            // The border's line covers a pixel of the outer edges.
+            // The border covers a pixel of the outer edges.
             assert!((size(value).sqrt() - edge).abs() < 4.0, "equal squares");
         }
         let across = mean(high, 0) - mean(low, 0);
@@ -71,7 +71,7 @@ fn cells_are_drawn_as_equal_rectangles_of_their_own_colour_with_y_upwards() {
         let up = mean(low, 1) - mean(high, 1);
         assert!((up - edge).abs() < 4.0, "the upper row is above: {up}");
     }
-    // Text in ink on white passes through any grey.
+    // Dark text on white contains every grey.
     let grey = place([120, 120, 120]).len() as f64 / (2.0 * edge * edge);
     assert!((grey - 1.0).abs() < 0.02, "two solid cells in grey: {grey}");
 }

@@ -1,4 +1,4 @@
-//! Streamlines: along the flow, evenly apart, in the fluid.
+//! Streamlines follow the flow, are evenly spaced, and stay in the fluid.
 
 use riprap::output::{Array, Image};
 use riprap_harness::picture::{Plane, Quantity, Section, streamlines};
@@ -56,7 +56,7 @@ fn streamlines_follow_the_flow_apart_from_each_other_and_from_solids() {
         for &point in line {
             let cell = section.cell(point).expect("a point in the domain");
             assert!(!section.solid[cell], "a line in the solid at {point:?}");
-            // Bilinear velocity errs by h²/8 |u''| = 5e-4, which turns add up over one period.
+            // The error of bilinear velocity is h²/8 |u''| = 5e-4, which accumulates over one period.
             assert!(
                 (psi(point) - mean).abs() < 0.02,
                 "ψ from {mean} to {}",
@@ -68,8 +68,8 @@ fn streamlines_follow_the_flow_apart_from_each_other_and_from_solids() {
             assert!(nearest >= 0.5 * separation, "lines {nearest} m apart");
         }
     }
-    // No fluid cell is left out by more than the distance at which lines begin, plus the half
-    // line that was too short to keep.
+    // No fluid cell is farther from a line than the distance at which lines begin, plus half of the longest line that was
+    // too short to keep.
     let far = |point: [f64; 2]| {
         let distance = |other: &[f64; 2]| (other[0] - point[0]).hypot(other[1] - point[1]);
         lines

@@ -1,4 +1,4 @@
-//! Rock masses, cut.
+//! Rock masses, cut into blocks.
 
 use super::{
     LeftOut,
@@ -14,7 +14,7 @@ use crate::{
 };
 use glam::DVec3;
 
-/// The blocks of the rock mass `index`, and what of it is too small for one.
+/// The blocks of the rock mass `index`, and the pieces that are too small for a block.
 pub(super) fn blocks(
     scene: &Scene,
     index: usize,
@@ -82,8 +82,8 @@ pub(super) fn blocks(
     Ok((blocks, left_out))
 }
 
-/// What half of an open joint at each face leaves of a block, and its centroid from that of the block;
-/// none if it leaves too little for a block.
+/// The block with each face set back by half the aperture, and its centroid from that of the original block; `None`
+/// if too little is left for a block.
 fn opened(shape: Polyhedron, aperture: f64) -> Option<(Polyhedron, DVec3)> {
     if aperture == 0.0 {
         return Some((shape, DVec3::ZERO));
@@ -99,7 +99,7 @@ fn opened(shape: Polyhedron, aperture: f64) -> Option<(Polyhedron, DVec3)> {
     Polyhedron::from_half_spaces(&faces).ok()
 }
 
-/// The set `number` of a mass.
+/// The joint set `number` of a mass.
 fn joints(mass: &scene::RockMass, number: u64, set: &scene::JointSet) -> JointSet {
     let width = set.spacing * set.scatter.unwrap_or(scene::JointSet::USUAL_SCATTER);
     JointSet {

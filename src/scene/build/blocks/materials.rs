@@ -1,4 +1,4 @@
-//! Materials and their joints.
+//! Materials and the contact properties of their pairs.
 
 use crate::{
     Result,
@@ -9,7 +9,7 @@ use crate::{
     scene::{self, Scene},
 };
 
-/// What holds particles and meets no block, of any rock.
+/// The index of the material of a solid or wall; 0 if there are neither materials nor blocks that could touch it.
 pub(super) fn held(scene: &Scene, key: &str, name: Option<&str>) -> Result<usize> {
     match scene.materials.is_empty() && !scene.has_blocks() {
         true => Ok(0),
@@ -17,7 +17,7 @@ pub(super) fn held(scene: &Scene, key: &str, name: Option<&str>) -> Result<usize
     }
 }
 
-/// The materials in their order; without blocks there is one, whether it is given or not.
+/// The materials in their order; a default one if a scene without blocks has none.
 pub(super) fn materials(scene: &Scene) -> Vec<Material> {
     let material = |material: &scene::Material| Material {
         elastic: material.youngs_modulus.map(|youngs_modulus| Elastic {
@@ -41,7 +41,7 @@ pub(super) fn materials(scene: &Scene) -> Vec<Material> {
     materials
 }
 
-/// The pairs whose joint the scene gives: what it does not say stays as it follows from the two.
+/// The pairs with contact properties of their own; properties that a pair does not give follow from the two materials.
 pub(super) fn pairs(scene: &Scene) -> Result<Vec<PairMaterial>> {
     let all = materials(scene);
     let pair = |(index, pair): (usize, &scene::MaterialPair)| {

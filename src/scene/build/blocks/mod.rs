@@ -1,4 +1,4 @@
-//! From a scene to the blocks in it.
+//! Conversion of a scene to its blocks.
 
 mod masses;
 mod materials;
@@ -21,21 +21,21 @@ use std::collections::HashSet;
 pub struct BlockSetup {
     /// The blocks.
     pub setup: Setup,
-    /// The rock masses of which pieces are missing.
+    /// The rock masses from which pieces are left out.
     pub left_out: Vec<LeftOut>,
-    /// Number of those that a fluid flows around, the first ones. The cells of a lattice know its solids
-    /// and walls already.
+    /// Number of blocks that a fluid flows around; they come first. After them come the solids and walls, which the
+    /// cells of a lattice represent already.
     pub in_fluid: usize,
 }
 
-/// Pieces of a rock mass that are smaller or thinner than the scene lets a block be.
+/// Pieces of a rock mass that are smaller or thinner than the scene allows for blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeftOut {
     /// Name of the rock mass.
     pub mass: String,
-    /// How many.
+    /// Number of pieces.
     pub pieces: usize,
-    /// Their volume, as a share of the mass's.
+    /// Their volume, as a fraction of that of the mass.
     pub share: f64,
 }
 
@@ -100,8 +100,8 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
     })
 }
 
-/// The box after which space repeats, along the axes whose faces are periodic. In a plane nothing varies along y, and
-/// blocks fill the width.
+/// The periodic box, infinite along the axes whose faces are not periodic. In a plane flow nothing varies along y, and blocks
+/// fill the width.
 fn period(scene: &Scene) -> Option<Period> {
     let faces = [Face::XMin, Face::YMin, Face::ZMin];
     let plane = scene.particles.as_ref().is_some_and(|p| p.plane);
@@ -119,10 +119,10 @@ fn period(scene: &Scene) -> Option<Period> {
     })
 }
 
-/// Likeness (Jaro–Winkler) of names from which on one is meant for the other.
+/// Similarity (Jaro–Winkler) from which one name counts as a misspelling of the other.
 const ALIKE: f64 = 0.75;
 
-/// Names differ, and those that probes name exist.
+/// Checks that names are distinct, and that the blocks that probes name exist.
 fn check_names(scene: &Scene, setup: &Setup) -> Result<()> {
     let mut names = HashSet::with_capacity(setup.blocks.len());
     for block in &setup.blocks {
@@ -160,7 +160,7 @@ fn check_names(scene: &Scene, setup: &Setup) -> Result<()> {
     Ok(())
 }
 
-/// Where there is a domain, blocks start in it; fixed ones need only reach into it.
+/// Checks that blocks start in the domain, if there is one; fixed blocks need only reach into it.
 fn check_domain(scene: &Scene, setup: &Setup) -> Result<()> {
     let domain = &scene.domain;
     if !domain.is_given() {
@@ -185,7 +185,7 @@ fn check_domain(scene: &Scene, setup: &Setup) -> Result<()> {
     Ok(())
 }
 
-/// Probes ask for loads on the faces of blocks in the fluid, not of its solids.
+/// Checks that probes with `faces` are of blocks in the fluid, not of its solids.
 fn check_faces(scene: &Scene, solids: &[Block]) -> Result<()> {
     for (index, probe) in scene.probes.iter().enumerate() {
         if let ProbePlace::Block {
@@ -205,7 +205,7 @@ fn check_faces(scene: &Scene, solids: &[Block]) -> Result<()> {
     Ok(())
 }
 
-/// Probes ask for the safety of blocks that nothing but contacts holds.
+/// Checks that probes with `safety` are of blocks without a guide.
 fn check_safety(scene: &Scene, setup: &Setup) -> Result<()> {
     let guided = |name: &str| {
         let mut guides = setup.guides.iter();
@@ -222,8 +222,8 @@ fn check_safety(scene: &Scene, setup: &Setup) -> Result<()> {
             return Err(Error::scene(
                 format!("probes[{index}].safety"),
                 format!(
-                    "`{block}` slides along a guide, which holds it beside its contacts, and factors of safety know \
-                     contacts alone; remove `safety`, or the guide of the block"
+                    "`{block}` slides along a guide, which holds it in addition to its contacts, and factors of safety consider \
+                     only contacts; remove `safety`, or the guide of the block"
                 ),
             ));
         }

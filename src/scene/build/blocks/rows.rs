@@ -1,4 +1,4 @@
-//! A table of `blocks`: its block, how it deforms, what acts on points of it, and its copies.
+//! A table of `blocks`: its block, deformation, point loads and copies.
 
 use super::shapes::{rotation, shape};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
 use glam::{DMat3, DQuat, DVec3};
 use std::sync::Arc;
 
-/// Where the own frame of a block is.
+/// Position and rotation of a block's own frame.
 #[derive(Clone, Copy)]
 struct Place {
     position: DVec3,
@@ -64,7 +64,7 @@ pub(super) fn blocks(scene: &Scene, index: usize, block: &scene::Block) -> Resul
     Ok(made.collect())
 }
 
-/// The copies of `places` that a row makes, those places themselves first.
+/// The places of a row: `places` themselves, then their copies.
 fn row_of(places: &[Place], row: &Repeat) -> Vec<Place> {
     let (turn, about) = (rotation(&row.turn), DVec3::from(row.about));
     let mut list = places.to_vec();
@@ -87,11 +87,11 @@ fn start(formulas: &[Formula; 3]) -> DVec3 {
     DVec3::from(formulas.each_ref().map(|f| f.eval_at([0.0; 3], 0.0)))
 }
 
-/// Distance from the shape up to which a point is on its surface, as a part of its radius: what scenes round
-/// their numbers to.
+/// Distance from a shape within which a point counts as on its surface, relative to the radius of the shape: the
+/// rounding of numbers in scenes.
 const ON: f64 = 1e-6;
 
-/// What a table says of points of its block, from the centroid.
+/// The points of the block of a table, relative to the centroid.
 struct Points {
     deformable: Option<Deformable>,
     point_loads: Vec<PointLoad>,
@@ -100,8 +100,7 @@ struct Points {
 /// The points of the table `key`, whose `shape` has its `centroid` (m) in the block's own frame.
 ///
 /// # Errors
-/// [`Error::Scene`] naming a point that is not of the block, or the mesh of several parts that would have to
-/// deform.
+/// [`Error::Scene`] naming a point outside the block, or a deformable mesh that has several parts.
 fn points(key: &str, block: &scene::Block, shape: &Shape, centroid: DVec3) -> Result<Points> {
     if block.deformable && shape.parts().len() > 1 {
         return Err(Error::scene(

@@ -64,7 +64,7 @@ fn compound(scene: &Scene, key: &str, parts: &[crate::scene::Part]) -> Result<(S
     Shape::compound(placed).map_err(|error| error.at_key(|what| format!("{key}.{what}")))
 }
 
-/// A form turned about its centroid, and what rounding has moved that by, m.
+/// A form rotated about its centroid, and the shift of the centroid by rounding, m.
 fn turned(form: &Form, turn: DQuat) -> Result<(Form, DVec3)> {
     match form {
         Form::Convex(shape) if turn != DQuat::IDENTITY => {
@@ -76,7 +76,7 @@ fn turned(form: &Form, turn: DQuat) -> Result<(Form, DVec3)> {
     }
 }
 
-/// A turn of a scene.
+/// The quaternion of a rotation in a scene.
 pub(crate) fn rotation(rotation: &Rotation) -> DQuat {
     if rotation.angle == 0.0 {
         return DQuat::IDENTITY;
@@ -104,7 +104,7 @@ pub(super) fn in_mesh(
     translate: DVec3,
 ) -> Result<Box<dyn Fn(DVec3) -> bool>> {
     let tree = WindingTree::new(&closed_mesh(path, scale, translate)?);
-    // Half-way between outside and inside, whichever way the triangles turn.
+    // Half-way between outside and inside, for either orientation of the triangles.
     Ok(Box::new(move |x| tree.at(x).abs() > 0.5))
 }
 

@@ -69,8 +69,8 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
     }
 }
 
-/// A fixed block behind each wall and each free-slip face: what keeps the fluid in keeps blocks in. They
-/// leave through the others.
+/// A fixed block behind each wall and each free-slip face, which confine blocks as they confine the fluid. Blocks
+/// leave through other faces.
 pub(super) fn walls(scene: &Scene) -> Result<Vec<Block>> {
     let material = held(scene, "materials", None)?;
     let (low, high) = (
@@ -99,7 +99,7 @@ pub(super) fn walls(scene: &Scene) -> Result<Vec<Block>> {
     Ok(blocks)
 }
 
-/// Whether a region holds a point (m).
+/// A test of whether one of the regions contains a point (m).
 ///
 /// # Errors
 /// If the file of a mesh cannot be read.

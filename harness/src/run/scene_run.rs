@@ -39,7 +39,6 @@ const LOOKS: f64 = 20.0;
 
 /// Timeout of a wait. A step of 10⁸ cells or 10⁷ particles takes a CPU adapter minutes, and a step with the most sub-steps
 /// of contacts that a run may have takes a quarter of an hour.
-/// contacts as a run may have a quarter of an hour.
 const PATIENCE: Duration = Duration::from_secs(1800);
 
 /// A running scene.

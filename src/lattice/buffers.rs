@@ -18,8 +18,11 @@ use crate::gpu::buffers::{filled, zeroed};
 pub(super) struct Buffers {
     pub(super) populations: Vec<wgpu::Buffer>,
     pub(super) names: Vec<String>,
-    /// Velocity of the last and the coming step, exchanged each step.
-    pub(super) velocity: Option<[Vec<wgpu::Buffer>; 2]>,
+    /// Velocity of the last and the coming step, exchanged each step; one field if the eddy viscosity is evaluated every
+    /// second step; empty without eddy viscosity.
+    pub(super) velocity: Vec<Vec<wgpu::Buffer>>,
+    /// Eddy viscosity of the last even step for the odd one after it.
+    pub(super) eddy_viscosity: Option<wgpu::Buffer>,
     pub(super) flags: Option<wgpu::Buffer>,
     pub(super) force: Vec<wgpu::Buffer>,
     /// The force of all cells, if they have one force.
@@ -52,13 +55,21 @@ const AFTER: [&str; 3] = ["velocity_after_0", "velocity_after_1", "velocity_afte
 const FORCE: [&str; 3] = ["force_field_0", "force_field_1", "force_field_2"];
 
 impl Buffers {
+    /// The velocity that a step of the given parity reads.
+    pub(super) fn velocity_before(&self, odd: bool) -> Option<&Vec<wgpu::Buffer>> {
+        let fields = self.velocity.len().max(1);
+        self.velocity.get(usize::from(odd) % fields)
+    }
+
     /// All by their names in WGSL, for a step of the given parity.
     pub(super) fn named(&self, odd: bool) -> Vec<(&str, &wgpu::Buffer)> {
         let names = self.names.iter().map(String::as_str);
         let mut all: Vec<_> = names.zip(&self.populations).collect();
-        if let Some(velocity) = &self.velocity {
-            all.extend(BEFORE.into_iter().zip(&velocity[usize::from(odd)]));
-            all.extend(AFTER.into_iter().zip(&velocity[usize::from(!odd)]));
+        if let Some(before) = self.velocity_before(odd) {
+            all.extend(BEFORE.into_iter().zip(before));
+        }
+        if let [_, _] = &self.velocity[..] {
+            all.extend(AFTER.into_iter().zip(&self.velocity[usize::from(!odd)]));
         }
         all.extend(FORCE.into_iter().zip(&self.force));
         let optional = [
@@ -66,6 +77,7 @@ impl Buffers {
             ("uniform_force", &self.uniform_force),
             ("guard_state", &self.guard),
             ("wall_velocity", &self.wall_velocity),
+            ("eddy_viscosity", &self.eddy_viscosity),
             ("near_wall_viscosity", &self.near_wall_viscosity),
             ("psm_slots", &self.psm_slots),
         ];
@@ -165,7 +177,14 @@ pub(super) fn make_buffers(
             })
             .collect(),
         names,
-        velocity: setup.wale.map(|_| [velocity(), velocity()]),
+        velocity: match (setup.wale, setup.wale_interval) {
+            (None, _) => Vec::new(),
+            (Some(_), 1) => vec![velocity(), velocity()],
+            (Some(_), _) => vec![velocity()],
+        },
+        eddy_viscosity: setup
+            .keeps_eddy_viscosity()
+            .then(|| zeroed(device, "eddy viscosity", 4 * scalars)),
         flags: list("flags", &geometry.flags),
         force,
         uniform_force,

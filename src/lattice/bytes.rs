@@ -7,7 +7,7 @@ impl Lattice {
     pub fn bytes(&self) -> Vec<(&'static str, u64)> {
         let buffers = &self.buffers;
         let size = |buffer: &Option<wgpu::Buffer>| buffer.as_ref().map_or(0, wgpu::Buffer::size);
-        let velocity = buffers.velocity.iter().flatten().flatten();
+        let velocity = buffers.velocity.iter().flatten();
         let open = buffers.open_faces.iter();
         let geometry = &self.geometry;
         // The kernels of even and odd steps keep a list each.
@@ -19,8 +19,8 @@ impl Lattice {
                 buffers.populations.iter().map(wgpu::Buffer::size).sum(),
             ),
             (
-                "velocity of the last two steps",
-                velocity.map(wgpu::Buffer::size).sum(),
+                "velocity and eddy viscosity between steps",
+                velocity.map(wgpu::Buffer::size).sum::<u64>() + size(&buffers.eddy_viscosity),
             ),
             ("flags of cells", size(&buffers.flags)),
             (

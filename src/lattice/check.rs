@@ -148,6 +148,10 @@ impl Setup {
             let message = format!("is {constant}; give a number from 0, such as 0.5");
             return Err(Error::argument("wale", message));
         }
+        if !matches!(self.wale_interval, 1 | 2) {
+            let message = format!("is {}; give 1 or 2 steps", self.wale_interval);
+            return Err(Error::argument("wale_interval", message));
+        }
         self.check_joint_aperture()?;
         self.check_wall_model()?;
         let squared = (self.max_speed * self.max_speed) as f32;

@@ -23,9 +23,12 @@ pub struct Populations {
     /// f_q − w_q of each cell, direction by direction, x fastest.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub values: Vec<f32>,
-    /// Velocity of the last step for the eddy viscosity, component by component; empty without.
+    /// Velocity from which the eddy viscosity of the coming step follows, component by component; empty without.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub velocity: Vec<f32>,
+    /// Eddy viscosity of each cell in the coming step, if it is that of the last one; otherwise empty.
+    #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
+    pub eddy_viscosity: Vec<f32>,
     /// Least eddy viscosity of each cell in the coming step, by a wall model where blocks are in the fluid; otherwise empty.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
     pub near_wall: Vec<f32>,
@@ -63,8 +66,8 @@ impl Lattice {
             values.extend(readback.read::<f32>(device, queue, &buffer, cells).await?);
         }
         let mut velocity = Vec::new();
-        if let Some(buffers) = &self.buffers.velocity {
-            for buffer in &buffers[self.parity()] {
+        if let Some(before) = self.buffers.velocity_before(self.parity() == 1) {
+            for buffer in before {
                 let count = (buffer.size() / 4) as usize;
                 let planes: Vec<f32> = readback.read(device, queue, buffer, count).await?;
                 for plane in planes.chunks(self.grid.scalar_count() as usize) {
@@ -73,14 +76,17 @@ impl Lattice {
                 }
             }
         }
-        let mut near_wall = Vec::new();
-        if let (Some(buffer), Some(_)) =
-            (&self.buffers.near_wall_viscosity, self.setup.solid_operator)
-        {
+        let [mut eddy_viscosity, mut near_wall] = [const { Vec::new() }; 2];
+        let scalars = [
+            (self.kept_viscosity(self.step), &mut eddy_viscosity),
+            (self.near_wall_of_blocks(), &mut near_wall),
+        ];
+        for (buffer, values) in scalars {
+            let Some(buffer) = buffer else { continue };
             let count = (buffer.size() / 4) as usize;
             let plane: Vec<f32> = readback.read(device, queue, buffer, count).await?;
             let of = |cell| plane[self.grid.scalar_of(cell) as usize];
-            near_wall.extend(self.grid.domain().map(of));
+            values.extend(self.grid.domain().map(of));
         }
         let mut carried = Vec::new();
         for (face, (_, buffer)) in self.buffers.open_faces.iter().enumerate() {
@@ -96,6 +102,7 @@ impl Lattice {
             cells: self.grid.cells,
             values,
             velocity,
+            eddy_viscosity,
             near_wall,
             travelled: self.travelled(device, queue).await?,
         })
@@ -114,8 +121,12 @@ impl Lattice {
                 state.cells, self.grid.cells
             ));
         }
-        if self.buffers.velocity.is_some() && state.velocity.len() != 3 * cells {
+        if !self.buffers.velocity.is_empty() && state.velocity.len() != 3 * cells {
             return wrong("the saved state has no velocity, which the eddy viscosity needs".into());
+        }
+        if self.kept_viscosity(state.step).is_some() && state.eddy_viscosity.len() != cells {
+            let message = "the saved state has no eddy viscosity, which an odd step needs; continue with `wale_interval` 1";
+            return wrong(message.into());
         }
         let faces = self.buffers.open_faces.iter();
         let carried: u64 = faces.map(|(_, buffer)| buffer.size() / 4).sum();
@@ -153,17 +164,21 @@ impl Lattice {
         if let [x, y, z] = state.velocity.chunks(cells.max(1)).collect::<Vec<_>>()[..] {
             self.set_velocity_before(queue, &[x.to_vec(), y.to_vec(), z.to_vec()]);
         }
+        let write = |buffer: &wgpu::Buffer, values: &[f32]| {
+            let mut plane = vec![0f32; (buffer.size() / 4) as usize];
+            for (cell, value) in self.grid.domain().zip(values) {
+                plane[self.grid.scalar_of(cell) as usize] = *value;
+            }
+            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&plane));
+        };
+        if let Some(buffer) = self.kept_viscosity(state.step) {
+            write(buffer, &state.eddy_viscosity);
+        }
         match (
             &self.buffers.near_wall_viscosity,
             state.near_wall.len() == cells,
         ) {
-            (Some(buffer), true) => {
-                let mut plane = vec![0f32; (buffer.size() / 4) as usize];
-                for (cell, value) in self.grid.domain().zip(&state.near_wall) {
-                    plane[self.grid.scalar_of(cell) as usize] = *value;
-                }
-                queue.write_buffer(buffer, 0, bytemuck::cast_slice(&plane));
-            }
+            (Some(buffer), true) => write(buffer, &state.near_wall),
             // Without blocks it follows from the velocity.
             (Some(_), false) => self.set_near_wall(device, queue)?,
             (None, _) => {}
@@ -195,6 +210,18 @@ impl Lattice {
             carried = rest;
         }
         Ok(())
+    }
+
+    /// The eddy viscosity that the coming step takes from the last one, after so many steps.
+    fn kept_viscosity(&self, steps: u64) -> Option<&wgpu::Buffer> {
+        let kept = self.buffers.eddy_viscosity.as_ref();
+        kept.filter(|_| steps % 2 == 1)
+    }
+
+    /// The least eddy viscosity by a wall model where blocks are in the fluid.
+    fn near_wall_of_blocks(&self) -> Option<&wgpu::Buffer> {
+        let near_wall = self.buffers.near_wall_viscosity.as_ref();
+        near_wall.filter(|_| self.setup.solid_operator.is_some())
     }
 
     /// Indices of the cells of an open face in its buffer, in the order of a state; the buffer of a closed face has one cell.

@@ -1,6 +1,8 @@
 //! What a fluid takes on a device, and over how many bindings it is spread.
 
-use super::{Bindings, Face, Force, Grid, PSM_PLANES, Setup, Storage, populations::Q, surface};
+use super::{
+    Bindings, Face, Force, Grid, PSM_PLANES, Setup, Storage, populations::Q, surface, traffic,
+};
 use crate::{Error, Result, gpu::kernel::largest_binding};
 
 /// Bytes and bindings of a fluid.
@@ -79,7 +81,11 @@ impl Room<'_> {
         let flags = u32::from(!setup.is_all_fluid());
         let step = field
             + 2 * flags
-            + 2 * vectors * u32::from(setup.wale.is_some())
+            + match (setup.wale, setup.wale_interval) {
+                (None, _) => 0,
+                (Some(_), 1) => 2 * vectors,
+                (Some(_), _) => vectors + 1,
+            }
             + u32::from(setup.max_speed > 0.0)
             + u32::from(setup.wall_model.is_some())
             + u32::from(setup.solid_operator.is_some())
@@ -204,7 +210,10 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
     let [slots, fractions] = surface::bytes(setup, grid);
     let others = [
         (!setup.surface.is_empty(), slots + fractions),
-        (setup.wale.is_some(), 24 * scalars),
+        (
+            setup.wale.is_some(),
+            traffic::bytes_of_wale(setup) * scalars,
+        ),
         (!setup.is_all_fluid(), 4 * u64::from(grid.element_count())),
         (setup.wall_model.is_some(), 4 * scalars),
         (room.has_force(), 12 * scalars),

@@ -31,7 +31,10 @@ fn base(entry: &str, setup: &Setup, bindings: Bindings) -> Program {
             "populations",
             populations::accessors(bindings.populations, setup),
         )
-        .text("velocities", spread::velocities(bindings.vectors))
+        .text(
+            "velocities",
+            spread::velocities(bindings.vectors, setup.wale_interval),
+        )
         .text("forces", spread::forces(bindings.vectors, false))
         .text(
             "psm_storage",
@@ -126,6 +129,14 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
         .slot(
             "eddy",
             either(setup.wale.is_some(), "eddy_wale", "eddy_none"),
+        )
+        .slot(
+            "wale_interval",
+            either(
+                setup.wale_interval == 2,
+                "wale_every_second_step",
+                "wale_every_step",
+            ),
         )
         .slot(
             "near_wall",

@@ -119,25 +119,30 @@ impl Field<'_> {
 }
 
 /// `read_before(s, e)` and `write_after(s, e, word)`: component s of the velocity of the step before and of this one, of
-/// element e.
-pub(super) fn velocities(bindings: u32) -> String {
+/// element e. A step either reads or writes if the eddy viscosity is evaluated every second step, in one field.
+pub(super) fn velocities(bindings: u32, wale_interval: u32) -> String {
+    let write_after = Some("write_after");
     let before = Field {
         name: "velocity_before",
         binding: 60,
         word: "Reals",
         parameters: "e: u32",
         read: Some("read_before"),
-        write: None,
+        write: write_after.filter(|_| wale_interval == 2),
     };
     let after = Field {
         name: "velocity_after",
         binding: 63,
         read: None,
-        write: Some("write_after"),
+        write: write_after,
         ..before
     };
     let text = |field: Field<'_>| field.text(&planes(3, bindings), |own| vector(own, ELEMENTS));
-    format!("// needs grid, $reals\n{}{}", text(before), text(after))
+    let second = match wale_interval {
+        1 => text(after),
+        _ => String::new(),
+    };
+    format!("// needs grid, $reals\n{}{second}", text(before))
 }
 
 /// `read_velocity(s, n)`: component s of the velocity of the step before, of cell n.

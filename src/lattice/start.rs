@@ -114,12 +114,12 @@ impl Lattice {
 
     /// Sets the velocity that the eddy viscosity of the coming step looks at.
     pub(super) fn set_velocity_before(&self, queue: &wgpu::Queue, velocity: &[Vec<f32>; 3]) {
-        let Some(buffers) = &self.buffers.velocity else {
+        let Some(before) = self.buffers.velocity_before(self.parity() == 1) else {
             return;
         };
         let of = |n: usize| [0, 1, 2].map(|a: usize| velocity[a][n]);
         let values = buffers::vectors(&self.grid, self.bindings.vectors, of);
-        for (buffer, values) in buffers[self.parity()].iter().zip(values) {
+        for (buffer, values) in before.iter().zip(values) {
             queue.write_buffer(buffer, 0, bytemuck::cast_slice(&values));
         }
     }

@@ -13,16 +13,25 @@ use super::{
 const VECTOR: u64 = 12;
 
 /// Bytes that a step moves for a fluid cell away from walls: its populations in and out (216 in
-/// f32, 108 in 16 bits), the velocity in and out for WALE (24), the force field in (12), and the least eddy viscosity of a wall
-/// model in (4).
+/// f32, 108 in 16 bits), the velocity and, if it is kept, the eddy viscosity for WALE (24 or 16), the force field in (12), and
+/// the least eddy viscosity of a wall model in (4).
 pub fn bytes_a_cell(setup: &Setup) -> u64 {
     let populations = 2 * u64::from(Q) * bytes_a_population(setup.storage);
-    let velocity = setup.wale.map_or(0, |_| 2 * VECTOR);
     let force = match setup.force {
         Force::Field(_) => VECTOR,
         Force::None | Force::Constant(_) => 0,
     };
-    populations + velocity + force + setup.wall_model.map_or(0, |_| 4)
+    populations + bytes_of_wale(setup) + force + setup.wall_model.map_or(0, |_| 4)
+}
+
+/// Bytes that WALE keeps per cell between two steps, and moves in each of them: two velocities, or a velocity and the eddy
+/// viscosity, one of which a step reads while it writes the other.
+pub(super) fn bytes_of_wale(setup: &Setup) -> u64 {
+    match (setup.wale, setup.wale_interval) {
+        (None, _) => 0,
+        (Some(_), 1) => 2 * VECTOR,
+        (Some(_), _) => VECTOR + 4,
+    }
 }
 
 /// Bytes that a step moves over the whole grid: those of its fluid cells, the flags and the list of
@@ -88,6 +97,8 @@ mod tests {
         setup.force = Force::Constant([1e-6, 0.0, 0.0]);
         assert_eq!(bytes_a_cell(&setup), 216);
         setup.wale = Some(0.5);
+        assert_eq!(bytes_a_cell(&setup), 232);
+        setup.wale_interval = 1;
         assert_eq!(bytes_a_cell(&setup), 240);
         setup.force = Force::Field(vec![[0.0; 3]; 512]);
         assert_eq!(bytes_a_cell(&setup), 252);

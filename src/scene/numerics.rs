@@ -20,6 +20,9 @@ pub struct Numerics {
     pub eddy_viscosity: EddyViscosity,
     /// C_w of Nicoud & Ducros (1999), no unit; 0.325 to 0.6 in the literature. Default 0.5.
     pub wale_constant: f64,
+    /// Steps from one evaluation of the eddy viscosity to the next: 1 or 2. With 2, odd steps use that of the step
+    /// before. Default 2.
+    pub wale_interval: u32,
     /// Law of the wall for the friction of walls and solids at rest, and of grid-aligned faces of blocks. It
     /// needs `eddy_viscosity = "wale"`. Default `none`.
     pub wall_model: WallModel,
@@ -60,6 +63,7 @@ impl Default for Numerics {
             equilibrium: Equilibrium::default(),
             eddy_viscosity: EddyViscosity::default(),
             wale_constant: 0.5,
+            wale_interval: 2,
             wall_model: WallModel::default(),
             storage: Storage::default(),
             lanes: None,
@@ -189,6 +193,12 @@ impl Scene {
             return refuse(
                 "numerics.wale_constant",
                 format!("is {}; give a number from 0, such as 0.5", n.wale_constant),
+            );
+        }
+        if !matches!(n.wale_interval, 1 | 2) {
+            return refuse(
+                "numerics.wale_interval",
+                format!("is {}; give 1 or 2 steps", n.wale_interval),
             );
         }
         // A relaxation rate of 2 or more amplifies.

@@ -75,7 +75,7 @@ fn layouts_with_everything_on() {
         for bindings in [2, Rig::new().most_bindings()] {
             let mut setup = laid_out(box_of(0.01), storage, lanes, axis);
             setup.bindings = Some(bindings);
-            setup.wale = Some(0.5);
+            (setup.wale, setup.wale_interval) = (Some(0.5), 1 + axis as u32 % 2);
             setup.force = Force::Field(
                 (0..140)
                     .map(|n| [0, 1, 2].map(|a| 1e-3 * noise(3 * n + a) as f32))

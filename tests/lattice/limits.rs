@@ -397,6 +397,9 @@ fn numbers_that_cannot_be_are_refused_by_name() {
     for bad in [NAN, -1.0, f64::INFINITY] {
         refused("wale", &|s| s.wale = Some(bad));
     }
+    for bad in [0, 3] {
+        refused("wale_interval", &|s| s.wale_interval = bad);
+    }
     refused("max_speed", &|s| s.max_speed = -1.0);
     // It would push water into the domain or out of it.
     refused("faces.y_min", &closed(Face::Wall([0.0, 0.1, 0.0])));

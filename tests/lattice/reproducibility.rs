@@ -152,8 +152,9 @@ fn a_checkpoint_continues_to_the_bit_on_odd_and_even_steps() {
     let rig = Rig::new();
     let file = std::env::temp_dir().join(format!("riprap-repeat-{}.riprap", std::process::id()));
     for storage in [Storage::F32, Storage::F16] {
-        for stop in [50, 51] {
+        for (stop, wale_interval) in [(50, 2), (51, 2), (51, 1)] {
             let mut setup = setup();
+            setup.wale_interval = wale_interval;
             (setup.storage, setup.lanes) = (storage, if storage == Storage::F32 { 1 } else { 2 });
             let whole = run(&rig, setup.clone(), 100).1;
             let saved = checkpoint(run(&rig, setup.clone(), stop).1);
@@ -216,7 +217,7 @@ fn broken_checkpoints_are_refused() {
         (&bytes[..14], "cut short"),
         (&bytes[..3], "not a checkpoint"),
         (&changed(middle, !bytes[middle]), "damaged"),
-        (&changed(17, 12), "version 12 of its format"),
+        (&changed(17, 13), "version 13 of its format"),
         (&b"riprap state  4\n"[..], "version 4 of its format"),
         (&b"<VTKFile>"[..], "not a checkpoint"),
     ] {
@@ -230,4 +231,19 @@ fn broken_checkpoints_are_refused() {
         .set_populations(&rig.device, &rig.queue, populations(&saved))
         .unwrap_err();
     assert!(error.to_string().contains("[11, 7, 8]"), "{error}");
+}
+
+#[test]
+fn an_odd_step_needs_the_eddy_viscosity_of_the_even_one() {
+    let rig = Rig::new();
+    let mut every_step = setup();
+    every_step.wale_interval = 1;
+    let mut lattice = Lattice::new(&rig.device, setup()).unwrap();
+    let mut resume = |steps| {
+        let saved = run(&rig, every_step.clone(), steps).1;
+        lattice.set_populations(&rig.device, &rig.queue, &saved)
+    };
+    resume(2).unwrap();
+    let error = resume(3).unwrap_err().to_string();
+    assert!(error.contains("wale_interval"), "{error}");
 }

@@ -101,7 +101,8 @@ fn print_lattice(run: &SceneRun, summary: &Summary, lattice: &Lattice, units: &U
         setup.storage,
         setup.lanes,
         match setup.wale {
-            Some(constant) => format!(", WALE {constant}"),
+            Some(constant) if setup.wale_interval == 1 => format!(", WALE {constant}"),
+            Some(constant) => format!(", WALE {constant} every second step"),
             None => String::new(),
         },
         match setup.wall_model {

@@ -148,6 +148,7 @@ pub const CASES: &[Case] = &[
     short("wale/pure-shear", "WALE has no eddy viscosity in pure shear", wale::pure_shear),
     short("wale/near-wall", "WALE's eddy viscosity grows as y³ at a wall", wale::near_wall),
     short("wale/solid-rotation", "WALE's eddy viscosity in solid rotation", wale::solid_rotation),
+    short("wale/interval", "eddy viscosity evaluated every second step, against every step", wale::interval),
     long("wale/channel-re-tau-180", "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU", wale::turbulent_channel),
     short("wall-model/channel", "turbulent channels with a wall model (Lee & Moser 2015)", wall_model::channel),
     short("wall-model/rough-channel", "water over a rough bed, with a wall model (Keulegan 1938)", wall_model::rough_channel),

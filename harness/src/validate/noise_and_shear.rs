@@ -48,6 +48,7 @@ fn noise_and_shear(cells: [u32; 3]) -> Populations {
         cells,
         values,
         velocity,
+        eddy_viscosity: Vec::new(),
         near_wall: Vec::new(),
         travelled: Vec::new(),
         carried: Vec::new(),
@@ -69,7 +70,7 @@ pub fn golden(stand: &Stand) -> Outcome {
     let f16 = |lanes| changed(&base, |s| (s.storage, s.lanes) = (Storage::F16, lanes));
     let four = changed(&base, |s| s.lanes = 4);
     let forced = changed(&base, |s| s.force = Force::Constant(FORCE));
-    let wale = changed(&base, |s| s.wale = Some(0.5));
+    let wale = changed(&base, |s| (s.wale, s.wale_interval) = (Some(0.5), 1));
     let product = changed(&base, |s| s.equilibrium = Equilibrium::Product);
     let variants = [
         ("plain", base.clone(), PLAIN, F32_LIMIT),

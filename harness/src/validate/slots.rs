@@ -99,7 +99,8 @@ fn expected(setup: &Setup, bindings: u32, kind: BrickKind) -> Vec<String> {
     let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
     let optional = [
         (wale, "velocity_before_0"),
-        (wale, "velocity_after_0"),
+        (wale && setup.wale_interval == 1, "velocity_after_0"),
+        (setup.keeps_eddy_viscosity(), "eddy_viscosity"),
         (setup.wall_model.is_some(), "near_wall_viscosity"),
         (matches!(setup.force, Force::Field(_)), "force_field_0"),
         (setup.max_speed > 0.0, "guard_state"),

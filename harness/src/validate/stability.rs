@@ -50,6 +50,7 @@ fn noise(cells: [u32; 3]) -> Populations {
         cells,
         values: (0..C.len() as u32 * count).map(value).collect(),
         velocity: Vec::new(),
+        eddy_viscosity: Vec::new(),
         near_wall: Vec::new(),
         travelled: Vec::new(),
         carried: Vec::new(),

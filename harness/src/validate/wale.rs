@@ -118,6 +118,62 @@ pub fn solid_rotation(stand: &Stand) -> Outcome {
     ])
 }
 
+/// A Taylor-Green vortex that decays at ν = 1e-5 on 32³ cells, ten turnovers of u = 0.05: the eddy viscosity evaluated every
+/// second step against every step.
+pub fn interval(stand: &Stand) -> Outcome {
+    let (cells, speed, nu) = ([32; 3], 0.05, 1e-5);
+    let k = TAU / 32.0;
+    let start = fields::state(cells, |[x, y, z]| {
+        let [x, y, z] = [x, y, z].map(|a| k * a);
+        let across = speed * z.cos();
+        (
+            0.0,
+            [across * x.sin() * y.cos(), -across * x.cos() * y.sin(), 0.0],
+        )
+    });
+    let end = |wale_interval: u32| {
+        let mut setup = stand.setup(cells, nu);
+        (setup.wale, setup.wale_interval) = (Some(CONSTANT), wale_interval);
+        let mut flow = stand.flow(setup, &start, true)?;
+        flow.advance((10.0 / (k * speed)) as u64)?;
+        let state = flow.state()?;
+        anyhow::Ok((flow.trial(), state))
+    };
+    let ((_, every), (trial, second)) = (end(1)?, end(2)?);
+    let energy = |state: &State| -> f64 {
+        let squares = state
+            .velocity
+            .iter()
+            .flatten()
+            .map(|u| f64::from(*u).powi(2));
+        squares.sum()
+    };
+    let lost = |state: &State| energy(&start) - energy(state);
+    let pairs = every
+        .velocity
+        .iter()
+        .flatten()
+        .zip(second.velocity.iter().flatten());
+    let difference: f64 = pairs.map(|(a, b)| f64::from(a - b).powi(2)).sum();
+    Ok(vec![
+        trial.report(
+            "fraction of the energy lost",
+            lost(&second) / energy(&start),
+        ),
+        trial.relative(
+            "energy lost / every step",
+            lost(&second) / lost(&every),
+            1.0,
+            5e-3,
+        ),
+        trial.at_most(
+            "RMS difference of the velocity / RMS velocity",
+            (difference / energy(&every)).sqrt(),
+            1e-2,
+        ),
+    ])
+}
+
 /// Half height, cells: 4.5 wall units per cell, the first centre at y⁺ = 2.2.
 const H: u32 = 40;
 /// Streamwise, between the walls, spanwise: long enough for the streaks, 6h × 2h × 3h.

@@ -9,7 +9,9 @@ pub(crate) fn lattice_key(what: &str) -> String {
         "force" => "fluid.acceleration".into(),
         "wale" => "numerics.wale_constant".into(),
         "lanes" | "lambda" | "wall_lambda" | "solid_lambda" | "odd_rate_floor"
-        | "solid_operator" | "solid_weight" | "wall_model" => format!("numerics.{what}"),
+        | "solid_operator" | "solid_weight" | "wale_interval" | "wall_model" => {
+            format!("numerics.{what}")
+        }
         "joint_aperture" => "coupling.joint_aperture".into(),
         "excess" => "initial.pressure".into(),
         "solid" => "solids".into(),

@@ -86,6 +86,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
     }
     setup.wale =
         (numerics.eddy_viscosity == scene::EddyViscosity::Wale).then_some(numerics.wale_constant);
+    setup.wale_interval = numerics.wale_interval;
     setup.wall_model = match numerics.wall_model {
         scene::WallModel::None => None,
         scene::WallModel::WernerWengle => Some(WallModel::WernerWengle),

@@ -27,6 +27,7 @@ fn the_step_in_variants_of_all_slots() {
         setup.collision = [Collision::Bgk, Collision::Hermite, Collision::Suga][collision];
         setup.equilibrium = [Equilibrium::Product, Equilibrium::SecondOrder][equilibrium];
         setup.wale = (wale > 0).then_some(0.5);
+        setup.wale_interval = 1 + guard as u32;
         setup.wall_model = (wale == 2).then_some(WallModel::WernerWengle);
         setup.force = forces()[force].clone();
         setup.max_speed = 0.4 * guard as f64;
@@ -50,7 +51,8 @@ fn the_step_in_variants_of_all_slots() {
             .unwrap_or_else(|error| panic!("{setup:?} {kind:?} {count}: {error}"));
         let wanted = [
             ("velocity_before_0", setup.wale.is_some()),
-            ("velocity_after_0", setup.wale.is_some()),
+            ("velocity_after_0", wale > 0 && guard == 0),
+            ("eddy_viscosity", wale > 0 && guard == 1),
             ("near_wall_viscosity", wale == 2),
             ("uniform_force", force == 1),
             ("force_field_0", force == 2),

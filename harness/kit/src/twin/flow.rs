@@ -31,8 +31,12 @@ pub struct Twin {
     pub wall_model: Option<WallModel>,
     /// Shifted populations before collision; 0 in solids.
     pub f: Vec<[f64; Q]>,
-    /// Velocity of the step before, for WALE.
+    /// Steps since the start.
+    steps: u64,
+    /// Velocity for WALE and wall models, of the step before or, in an odd step, of the one before that.
     previous_velocity: Option<Vec<[f64; 3]>>,
+    /// Eddy viscosity of the step before by WALE alone.
+    previous_nu_t: Vec<f64>,
     /// Cells that had a block in that step, for the wall model; empty before the first step.
     blocks_before: Vec<bool>,
     links: Vec<[Link; Q]>,
@@ -49,7 +53,9 @@ impl Twin {
             force: Force::Uniform([0.0; 3]),
             blocks: None,
             wall_model: None,
+            steps: 0,
             previous_velocity: None,
+            previous_nu_t: Vec::new(),
             blocks_before: Vec::new(),
         }
     }
@@ -57,7 +63,7 @@ impl Twin {
     /// Restarts from ρ and u of each cell (see [`equilibrium::consistent`]).
     pub fn start(&mut self, rho: &[f64], u: &[[f64; 3]]) {
         self.f = equilibrium::consistent(&self.domain, &self.config, rho, u);
-        self.previous_velocity = None;
+        (self.steps, self.previous_velocity) = (0, None);
     }
 
     /// Force on a cell.
@@ -157,22 +163,31 @@ impl Twin {
     /// Eddy viscosity of every cell in the coming step; 0 in solids and without WALE. It is reduced by the solid fraction,
     /// since the rotation of blocks would contribute to it.
     pub fn nu_t(&self) -> Vec<f64> {
-        let Some(c_w) = self.config.c_w else {
-            return vec![0.0; self.domain.cell_count()];
-        };
-        let u = &self.velocity_before();
         let mut near_wall = vec![0.0; self.domain.cell_count()];
         if let Some(model) = &self.wall_model {
+            let u = &self.velocity_before();
             near_wall = model.viscosity(&self.domain, self.config.nu(), u, &self.blocks_before);
             self.add_near_blocks(&mut near_wall);
         }
+        let by_wale = self.nu_t_by_wale();
         self.cells()
-            .map(|cell| {
-                if self.domain.solid[cell] {
-                    return 0.0;
-                }
-                let nu_t = wale::nu_t(&wale::gradient(&self.domain, u, cell), c_w);
-                nu_t.max(near_wall[cell]) * (1.0 - self.solid_at(cell).fraction)
+            .map(|cell| by_wale[cell].max(near_wall[cell]) * (1.0 - self.solid_at(cell).fraction))
+            .collect()
+    }
+
+    /// The same by WALE alone, without blocks.
+    fn nu_t_by_wale(&self) -> Vec<f64> {
+        let Some(c_w) = self.config.c_w else {
+            return vec![0.0; self.domain.cell_count()];
+        };
+        if self.steps % self.config.wale_interval == 1 {
+            return self.previous_nu_t.clone();
+        }
+        let u = &self.velocity_before();
+        self.cells()
+            .map(|cell| match self.domain.solid[cell] {
+                true => 0.0,
+                false => wale::nu_t(&wale::gradient(&self.domain, u, cell), c_w),
             })
             .collect()
     }
@@ -248,6 +263,8 @@ impl Twin {
 
     /// Collide, then stream.
     pub fn step(&mut self) {
+        let before = self.velocity_before();
+        let nu_t = self.nu_t_by_wale();
         let velocity: Vec<_> = self
             .cells()
             .map(|cell| self.solid_at(cell).mean_velocity(self.macroscopic(cell).1))
@@ -265,12 +282,19 @@ impl Twin {
         if let Some((_, cells)) = &self.blocks {
             self.blocks_before = cells.iter().map(|cell| cell.fraction > 0.0).collect();
         }
+        // The coming step evaluates the eddy viscosity from this velocity, or uses that of this one again.
+        self.steps += 1;
+        let kept = match self.steps % self.config.wale_interval {
+            0 => velocity,
+            _ => before,
+        };
+        self.previous_nu_t = nu_t;
         if let Some(model) = &self.wall_model {
             // The model acts before the coming step, on the populations that have arrived.
             let (nu, blocks) = (self.config.nu(), &self.blocks_before);
-            model.hand_over(&self.domain, nu, &velocity, blocks, &mut self.f);
+            model.hand_over(&self.domain, nu, &kept, blocks, &mut self.f);
         }
-        self.previous_velocity = Some(velocity);
+        self.previous_velocity = Some(kept);
     }
 
     /// Several steps.

@@ -49,6 +49,7 @@ pub fn twin_of(setup: &Setup) -> Twin {
         Collision::Hermite => twin::Operator::Hermite,
     };
     config.c_w = setup.wale;
+    config.wale_interval = setup.wale_interval.into();
     config.lambda_everywhere = setup.lambda;
     config.floor = if setup.lambda.is_some() {
         0.0
@@ -119,6 +120,7 @@ pub fn random_populations(twin: &mut Twin) -> Populations {
         cells,
         values,
         velocity,
+        eddy_viscosity: Vec::new(),
         near_wall: Vec::new(),
         travelled: Vec::new(),
         carried: Vec::new(),

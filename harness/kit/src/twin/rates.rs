@@ -113,6 +113,8 @@ pub struct Config {
     pub joint_weights: [f64; 2],
     /// WALE's C_w; `None` is laminar.
     pub c_w: Option<f64>,
+    /// Steps from one evaluation of the eddy viscosity to the next, 1 or 2.
+    pub wale_interval: u64,
 }
 
 impl Config {
@@ -131,6 +133,7 @@ impl Config {
             solid_weight: SolidWeight::Exact,
             joint_weights: [0.25; 2],
             c_w: None,
+            wale_interval: 1,
         }
     }
 

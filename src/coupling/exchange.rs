@@ -118,7 +118,7 @@ pub(crate) fn rock_step(scene: &Scene, blocks: &Blocks) -> Result<f64> {
     if !blocks.time_step().is_finite() {
         return Err(Error::scene(
             "rock.time_step",
-            "no block is free, so that no contact says how long a step may be; give time_step \
+            "no block is free, so that no contact determines the time step; give time_step \
              in s",
         ));
     }
@@ -149,8 +149,8 @@ fn bound(time_step: f64, sub_step: f64) -> Result<()> {
     Err(Error::scene(
         "materials",
         format!(
-            "contacts want sub-steps of {sub_step:.3e} s, {steps:.3e} of them in a step of {time_step:.3e} s, and a run takes at \
-             most {MAX_SUB_STEPS:e}; use a normal_stiffness smaller by {:.1e}, heavier blocks, or a shorter time_step",
+            "contacts need sub-steps of {sub_step:.3e} s, {steps:.3e} of them in a step of {time_step:.3e} s, and the limit \
+             is {MAX_SUB_STEPS:e}; use a normal_stiffness smaller by {:.1e}, heavier blocks, or a shorter time_step",
             (steps / MAX_SUB_STEPS).powi(2)
         ),
     ))

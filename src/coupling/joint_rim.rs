@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 const SAMPLE_DISTANCE: f64 = 1.0;
 /// Clearance to rock that a sample needs, spacings; without it the joint continues.
 const MIN_CLEARANCE: f64 = 0.45;
-/// Offsets of candidate samples along the normal of the face, spacings: where rock continues above or below the joint, only
+/// Offsets of candidate samples along the normal of the face, spacings: if rock continues above or below the joint, only
 /// one side has clearance.
 const NORMAL_OFFSETS: [f64; 3] = [0.0, -0.5, 0.5];
 /// Distances to both sides at which rock is probed, spacings: between two sides less than two spacings apart the joint

@@ -31,7 +31,7 @@ pub struct CouplingParams {
     pub time_step: f64,
     /// Blocks are held in all exchanges that begin before this time, s.
     pub hold: f64,
-    /// The fluid inside the blocks; `None` where blocks displace it.
+    /// The fluid inside the blocks; `None` if blocks displace it.
     pub inside: Option<InteriorFluid>,
 }
 
@@ -418,7 +418,7 @@ pub(super) fn broadphase(
             broadphase
         }
         (None, Search::Device) => {
-            let message = "pairs are to be searched on a device, and none was given; give one, or use broadphase = \"host\"";
+            let message = "the broadphase requires a device, and none was given; give one, or use broadphase = \"host\"";
             return Err(Error::scene("rock.broadphase", message));
         }
         (_, Search::Host) | (None, Search::Auto) => AutoBroadphase::on_host(),

@@ -47,9 +47,9 @@ struct JointFace<'a> {
 /// The surroundings of a block.
 #[derive(Clone, Copy, Debug)]
 struct Surroundings<'a> {
-    /// Parts of neighbouring blocks.
+    /// The parts of neighbouring blocks.
     neighbours: &'a [&'a Placed],
-    /// m.
+    /// Edge of a lattice cell, m.
     cell: f64,
     /// Body force on the fluid, N/m³.
     weight: DVec3,

@@ -187,14 +187,14 @@ fn compile(
         .count() as u64;
     let limits = device.limits();
     within(
-        "storage buffers a shader stage",
+        "storage buffers per shader stage",
         storage,
         limits.max_storage_buffers_per_shader_stage.into(),
     )?;
     // wgpu does not report a workgroup that is too large.
     let size = workgroup_size(linked, entry);
     within(
-        "invocations a workgroup",
+        "invocations per workgroup",
         size.iter().map(|&n| u64::from(n)).product(),
         limits.max_compute_invocations_per_workgroup.into(),
     )?;
@@ -283,11 +283,11 @@ fn check_constants(linked: &Linked, entry: &str, constants: &[(&str, f64)]) -> R
     };
     for (name, value) in constants {
         if !linked.declares(name) {
-            let message = "the kernel declares no such constant; look at the spelling";
+            let message = "the kernel declares no such constant; check the spelling";
             return refused(name, message.into());
         }
         if !(*value as f32).is_finite() {
-            let message = format!("its value is {value}, no number of 32 bits; look at the setup");
+            let message = format!("its value {value} is not a 32-bit number; check the setup");
             return refused(name, message);
         }
     }

@@ -59,10 +59,10 @@ fn check(buffer: &wgpu::Buffer, bytes: u64) -> Result<()> {
     } else if !bytes.is_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT) {
         let word = wgpu::COPY_BUFFER_ALIGNMENT;
         format!(
-            "reading back {bytes} bytes, which are no whole number of words of {word}; request more or fewer"
+            "reading back {bytes} bytes, which is not a multiple of {word}; request more or fewer"
         )
     } else if !buffer.usage().contains(wgpu::BufferUsages::COPY_SRC) {
-        "reading back a buffer that was made without `BufferUsages::COPY_SRC`; make it with that"
+        "reading back a buffer that was created without `BufferUsages::COPY_SRC`; create it with this usage"
             .into()
     } else {
         return Ok(());

@@ -1,7 +1,7 @@
 //! Time of a step of a settled rock mass for several numbers of blocks, on one core and on all cores.
 //!
-//! An iteration is a step. Times are CPU time on one core and wall time on all. `riprap bench --only rock` has the exponent
-//! of cost ∝ Nᵖ.
+//! An iteration is a step. Times are CPU time on one core and wall time on all. `riprap bench --only rock` reports the
+//! exponent of cost ∝ Nᵖ.
 
 use cpu_time::ThreadTime;
 use criterion::{BenchmarkId, Criterion, Throughput};

@@ -2,7 +2,7 @@
 //! `$RIPRAP_ADAPTER`: boxes of one size and of sizes 1:100.
 //!
 //! Times are CPU time of all threads on the host and on software adapters; on GPUs wall time of the whole
-//! call, including upload and readback. `riprap bench --only rock` has the exponent p of cost ∝ Nᵖ. 0.04 of it
+//! call, including upload and readback. `riprap bench --only rock` reports the exponent p of cost ∝ Nᵖ. 0.04 of p
 //! (1:100: 0.06) is not due to the search: boxes at the surface of a scene have fewer pairs, and small scenes have
 //! relatively more surface.
 

@@ -1,7 +1,8 @@
-//! What benches of kernels share: every adapter, or the one whose name contains `$RIPRAP_ADAPTER`, and at the end a table
-//! that compares them.
+//! Shared code of the kernel benches. They run on every adapter, or on the one whose name contains `$RIPRAP_ADAPTER`, and
+//! end with a table that compares the adapters.
 //!
-//! Times are GPU time, CPU time over the cores on software adapters, wall time where a GPU has no timestamps.
+//! Times are GPU times; CPU time divided by the number of cores on software adapters, and wall time on GPUs without
+//! timestamps.
 
 #![allow(dead_code, reason = "each bench uses a part of it")]
 
@@ -10,10 +11,10 @@ use kit::{clock::Clock, gpu, subject::Subject};
 use riprap::{Error, gpu::Processor, lattice::Setup, wgpu};
 use std::{collections::BTreeMap, time::Duration};
 
-/// Kernel and variant: millions of what it does a second on each adapter.
+/// Rate of each kernel and variant on each adapter, in millions per second.
 type Table = BTreeMap<String, Vec<f64>>;
 
-/// An adapter whose kernels are measured.
+/// An adapter on which kernels are measured.
 pub struct Adapter<'a> {
     pub device: wgpu::Device,
     pub queue: wgpu::Queue,
@@ -25,7 +26,7 @@ pub struct Adapter<'a> {
     table: &'a mut Table,
 }
 
-/// Measures on all adapters; `units` says what the rates of the table count.
+/// Measures on all adapters; `units` names the unit of the rates in the table.
 pub fn on_adapters(
     units: &str,
     measure: impl Fn(&mut Adapter<'_>) -> Result<(), Error>,
@@ -70,7 +71,7 @@ pub fn on_adapters(
 }
 
 impl Adapter<'_> {
-    /// A periodic cube without the guard, of lanes and bricks that suit the adapter.
+    /// A periodic cube without the velocity guard, with lanes and bricks that suit the adapter.
     pub fn setup(&self, n: u32) -> Setup {
         let mut setup = Setup::periodic([n; 3], 0.01);
         setup.max_speed = 0.0;
@@ -84,8 +85,8 @@ impl Adapter<'_> {
         setup
     }
 
-    /// Times turns of a subject, of which an iteration has `turns` that do `work` together. Each submission has several
-    /// iterations, but is short: drivers reset a GPU that is busy for seconds.
+    /// Times a subject; an iteration consists of `turns` turns, which do `work` together. Each submission contains several
+    /// iterations, but is short, because drivers reset a GPU that is busy for seconds.
     pub fn turns(
         &mut self,
         kernel: &str,
@@ -99,7 +100,7 @@ impl Adapter<'_> {
         });
     }
 
-    /// Times what `record` records, once after each `prepare`, which is not timed.
+    /// Times the commands of `record`, once after each `prepare`, which is not timed.
     pub fn prepared<State>(
         &mut self,
         kernel: &str,
@@ -113,7 +114,7 @@ impl Adapter<'_> {
             let mut seconds = 0.0;
             for _ in 0..iterations {
                 prepare(state)?;
-                // Writes to buffers go with the next submission.
+                // Flushes the writes to buffers, which belong to the next submission.
                 clock.queue.submit([]);
                 clock.wait()?;
                 let mut once = |pass: &mut wgpu::ComputePass<'_>| record(state, pass);
@@ -124,7 +125,7 @@ impl Adapter<'_> {
         });
     }
 
-    /// Seconds an iteration, from `run` for a number of iterations.
+    /// Measures `run`, which returns the seconds per iteration for a number of iterations.
     fn measure(
         &mut self,
         kernel: &str,
@@ -149,12 +150,12 @@ impl Adapter<'_> {
                     total += seconds * now as f64;
                     left -= now;
                 }
-                // Criterion divides by it.
+                // Criterion divides by the time, so it must not be zero.
                 Duration::from_secs_f64(total).max(Duration::from_nanos(1))
             });
         });
         group.finish();
-        // Infinitely long where the benchmark is not selected.
+        // `fastest` is infinite if the benchmark is not selected.
         let rates = self.table.entry(format!("{kernel}/{variant}")).or_default();
         rates.resize(self.number, f64::NAN);
         rates.push(units as f64 / fastest / 1e6);

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs one problem in riprap and in a peer, in turns, and compares their CPU time: free water beside PySPH, a dam that breaks,
-and polyhedra beside Yade, boxes that settle in a tray. Prints a table and writes it with --json.
+"""Runs the same problem alternately in riprap and in a peer, and compares their CPU times: a dam break in free water against
+PySPH, and polyhedral boxes that settle in a tray against Yade. Prints a table, and writes it to a file with --json.
 
     harness/peers/compare.py [--rounds N] [--json FILE] [dam] [boxes]
 
-Times are those of the process, all of its threads, between two counts of steps, so that starts and compilers cancel. Installs
-PySPH into <target>/peers, and Yade with apt-get where it is missing: for measuring only, nothing of riprap needs them.
+Times are CPU times of the process with all of its threads, differences between two numbers of steps, so that start-up and
+compilation cancel. Installs PySPH into <target>/peers, and Yade with apt-get if it is missing; riprap itself needs neither.
 """
 import argparse
 import json
@@ -25,15 +25,15 @@ TARGET = os.path.join(ROOT, os.environ.get("CARGO_TARGET_DIR", "target"))
 PYSPH = "pysph==1.0b2"
 RIPRAP = os.path.join(TARGET, "release/riprap")
 
-# Lengths in m; counts of riprap's steps, between which the time is taken. A step of it takes two of the water.
+# Lengths in m. `steps` are riprap steps, between which the time is taken; each contains two steps of the water.
 DAM = {"tank": [0.8, 0.4, 0.6], "column": [0.4, 0.4, 0.5], "spacing": 0.02, "smoothing": 2.0, "steps": [20, 120]}
-# A force of `stiffness` times the area and the depth of a contact (N/m³), that is times the volume in common.
+# The contact force is `stiffness` (N/m³) times the area and the depth of a contact, which is the overlap volume.
 BOXES = {"edges": [0.1, 0.08, 0.06], "tray": [0.64, 0.56], "count": [4, 4, 6], "gap": 0.01, "stiffness": 1e8,
          "friction": 35, "time_step": 4e-5, "steps": 6500}
 
 
 def cpu_seconds(command, **more):
-    """CPU time of a command and of what it starts, and what it prints."""
+    """CPU time of a command and its child processes, and its output."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **more)
     if done.returncode != 0:
@@ -50,7 +50,7 @@ def write(folder, name, text):
 
 
 def riprap(folder, scene, steps):
-    """CPU seconds and the summary of a run to so many steps."""
+    """CPU seconds, summary and output folder of a run of `steps` steps."""
     out = os.path.join(folder, f"riprap_{steps}")
     seconds, _ = cpu_seconds([RIPRAP, "run", scene, "--steps", str(steps), "--out", out])
     with open(os.path.join(out, "summary.json")) as file:
@@ -64,7 +64,7 @@ def last_row(out, name):
 
 
 def pysph():
-    """A Python that has PySPH."""
+    """The Python interpreter of an environment with PySPH."""
     python = os.path.join(TARGET, "peers/bin/python")
     ready = os.path.exists(python) and subprocess.run([python, "-c", "import pysph"]).returncode == 0
     if not ready:
@@ -74,13 +74,13 @@ def pysph():
 
 
 def between(runs):
-    """CPU seconds a step of two runs, each its CPU seconds and its steps."""
+    """CPU seconds per step from two runs, each given by its CPU seconds and its number of steps."""
     (start, first), (end, last) = runs
     return (end - start) / (last - first)
 
 
 def dam(rounds):
-    """A column of water without its gate: the same particles, neighbours, kernel, speed of sound and steps."""
+    """A dam break in both programs, with equal particles, neighbours, kernel, speed of sound and steps."""
     python = pysph()
     tank, column = DAM["tank"], DAM["column"]
     rows = []
@@ -112,7 +112,7 @@ z_max = {{ kind = "open" }}
             pool = summary["pool"]
             setup = {**DAM, "sound_speed": pool["sound_speed"], "time_step": summary["time"] / pool["acoustic_steps"]}
             setup = write(folder, "dam.json", json.dumps(setup))
-            # The first turn compiles.
+            # The first round also compiles PySPH.
             for steps in [1] * (turn == 0) + [steps for _, steps in own]:
                 command = [python, os.path.join(HERE, "pysph_dam.py"), setup, "--openmp", "--max-steps", str(steps)]
                 command += ["--disable-output", "--quiet", "-d", os.path.join(folder, "pysph")]
@@ -129,7 +129,7 @@ z_max = {{ kind = "open" }}
 
 
 def boxes(rounds):
-    """Boxes that have fallen into a tray: the same boxes, stiffness a volume and steps."""
+    """Boxes that fall into a tray in both programs, with equal boxes, stiffness per volume and steps."""
     if not shutil.which("yade"):
         subprocess.run(["apt-get", "update", "-qq"], check=True)
         subprocess.run(["apt-get", "install", "-qq", "--no-install-recommends", "yade"], check=True, stdout=subprocess.DEVNULL)

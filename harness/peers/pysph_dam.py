@@ -1,5 +1,5 @@
-"""A column of water that collapses in a box, in PySPH: its standard weakly compressible scheme with the kernel, the neighbours,
-the speed of sound and the step of riprap's scene. Prints the front, m.
+"""A dam break in a box with PySPH: its standard weakly compressible scheme with the kernel, the neighbours, the speed of sound
+and the time step of riprap's scene. Prints the position of the front, m, and the numbers of particles.
 
     pysph_dam.py SETUP.json [options of PySPH]
 """
@@ -20,7 +20,7 @@ LAYERS = round(2 * HDX)
 
 
 def lattice(low, high):
-    """Centres of the cells of a box whose corners are whole numbers of spacings."""
+    """Centres of the cells of a box whose corners are multiples of the spacing."""
     axes = [DX * (numpy.arange(round(a / DX), round(b / DX)) + 0.5) for a, b in zip(low, high)]
     return [x.ravel() for x in numpy.meshgrid(*axes, indexing="ij")]
 

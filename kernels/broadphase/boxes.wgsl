@@ -1,18 +1,18 @@
-// Boxes along the axes, in cells as large as they are.
+// Axis-aligned boxes, sorted into grid levels by size.
 
 struct Box {
     // Corners from the local origin, m.
     min: vec3<f32>,
-    // Boxes of one group never pair.
+    // Boxes of the same group never form pairs.
     group: u32,
     max: vec3<f32>,
     // Number of the item in the lower 24 bits, its level in the upper 8.
     tag: u32,
 }
 
-// The cells of the boxes of one size; fine levels come first.
+// The grid cells of the boxes of one size class; fine levels come first.
 struct Level {
-    // Cells a metre, a power of two: to multiply by it is exact.
+    // Cells per metre, a power of two, so that the multiplication is exact.
     scale: f32,
     // Longest edge of a box of this level, m.
     extent: f32,
@@ -34,7 +34,7 @@ fn cell_of(corner: vec3<f32>, scale: f32) -> vec3<i32> {
     return vec3<i32>(floor(corner * scale));
 }
 
-// Teschner et al. 2003, VMV, spatial hashing, of blocks of 4 x 4 x 4 cells that stay together: neighbours are near in
+// Teschner et al. 2003, VMV, spatial hashing, applied to blocks of 4 x 4 x 4 cells, so that neighbours are near in
 // memory. The last steps mix the bits (Appleby's MurmurHash3). `buckets` is a power of two, at least 64.
 fn bucket_of(cell: vec3<i32>, level: u32, buckets: u32) -> u32 {
     let block = vec3<u32>(cell >> vec3(2u));

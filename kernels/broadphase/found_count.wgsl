@@ -1,12 +1,12 @@
-// Pairs that are counted.
+// First pass: counts the pairs.
 
-// One an invocation, and a last one that stays zero.
+// One per invocation, and a last one that stays zero.
 @group(0) @binding(5) var<storage, read_write> hits: array<u32>;
 
 struct Header {
-    // Most candidates of a box.
+    // Largest number of candidates of a box.
     candidates: atomic<u32>,
-    // Pairs of all boxes.
+    // Total number of pairs.
     pairs: u32,
 }
 
@@ -25,7 +25,7 @@ fn found(i: u32, j: u32) {
 
 fn finish(n: u32, candidates: u32) {
     hits[n] = hits_here;
-    // Most boxes have few: the atomic is rare.
+    // Most boxes have few candidates, so that the atomic is rare.
     if (candidates > SLICE * search.slices) {
         atomicMax(&header.candidates, candidates);
     }

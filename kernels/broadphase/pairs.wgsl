@@ -2,26 +2,26 @@
 // later boxes of its level and with those of coarser levels.
 // needs invocation, boxes, $found
 
-// Boxes, those of a bucket next to each other.
+// Boxes, sorted by bucket.
 @group(0) @binding(0) var<storage, read> entries: array<Box>;
-// Where the boxes of each bucket begin; one more than there are buckets.
+// Index of the first box of each bucket, and the total number of boxes.
 @group(0) @binding(1) var<storage, read> starts: array<u32>;
-// Of each bucket the lowest group, its bits inverted, and the highest.
+// Lowest group, with its bits inverted, and highest group of each bucket.
 @group(0) @binding(2) var<storage, read> groups_of: array<vec2<u32>>;
 @group(0) @binding(3) var<storage, read> levels: array<Level>;
 
 struct Search {
     levels: u32,
-    // Invocations a box: each takes SLICE of its candidates.
+    // Invocations per box: each tests SLICE of its candidates.
     slices: u32,
-    // The pair that the first place of the list is for.
+    // Index of the pair at the first position of the list.
     first_pair: u32,
 }
 
 @group(0) @binding(4) var<uniform> search: Search;
 
-// Candidates of an invocation. Some adapters end loops after 65535 turns without a word; the turns through cells
-// are at most 27 on each of some 200 levels.
+// Candidates per invocation. Some adapters silently end loops after 65535 iterations; the loops over cells have at most 27
+// iterations on each of some 200 levels.
 override SLICE: u32;
 
 @compute @workgroup_size(64)
@@ -42,7 +42,7 @@ fn pairs(
     let first_mine = slice * SLICE;
     var passed = 0u;
     for (var level = own; level < search.levels; level++) {
-        // The lower corner of a box that reaches this one is in one of these cells.
+        // The lower corner of a box that overlaps this one lies in one of these cells.
         let scale = levels[level].scale;
         let low = cell_of(item.min - levels[level].extent, scale);
         let high = cell_of(item.max, scale);
@@ -67,8 +67,8 @@ fn pairs(
                         if (!overlap(item, other) || other.group == item.group) {
                             continue;
                         }
-                        // Other levels may share the bucket. Other cells of this level may too, but their places
-                        // differ by multiples of 4, and at most 4 cells in a row are searched.
+                        // Cells of other levels may share the bucket. So may other cells of this level, but their
+                        // coordinates differ by multiples of 4, and at most 4 cells per axis are searched.
                         let there = level_of(other) == level;
                         let later = level > own || beside || number_of(other) > number_of(item);
                         if (there && later) {

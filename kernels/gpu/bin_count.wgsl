@@ -1,14 +1,14 @@
-// Williams, Perkins & Cook 2004, Eng. Comput. 21:235, CGRID, first step: how many boxes have their lower corner in
-// the cells of each bucket, and between which groups they are.
+// Williams, Perkins & Cook 2004, Eng. Comput. 21:235, CGRID, first step: the number of boxes whose lower corner lies in
+// the cells of each bucket, and the range of their groups.
 // needs invocation, boxes
 
 @group(0) @binding(0) var<storage, read> boxes: array<Box>;
 @group(0) @binding(1) var<storage, read> levels: array<Level>;
-// One a bucket, and a last one that stays zero.
+// One per bucket, and a last one that stays zero.
 @group(0) @binding(2) var<storage, read_write> counts: array<atomic<u32>>;
-// The place of each box in its bucket; which of two comes first is left to the device.
+// Rank of each box in its bucket; the order depends on the device.
 @group(0) @binding(3) var<storage, read_write> ranks: array<u32>;
-// Of each bucket the lowest group, its bits inverted, and the highest: both begin at zero.
+// Lowest group, with its bits inverted, and highest group of each bucket; both begin at zero.
 @group(0) @binding(4) var<storage, read_write> groups_in: array<array<atomic<u32>, 2>>;
 
 @compute @workgroup_size(64)

@@ -1,9 +1,9 @@
-// Williams, Perkins & Cook 2004, Eng. Comput. 21:235, CGRID, last step: the boxes of a bucket next to each other.
+// Williams, Perkins & Cook 2004, Eng. Comput. 21:235, CGRID, last step: the boxes sorted by bucket.
 // needs invocation, boxes
 
 @group(0) @binding(0) var<storage, read> boxes: array<Box>;
 @group(0) @binding(1) var<storage, read> levels: array<Level>;
-// Where the boxes of each bucket begin; one more than there are buckets.
+// Index of the first box of each bucket, and the total number of boxes.
 @group(0) @binding(2) var<storage, read> starts: array<u32>;
 @group(0) @binding(3) var<storage, read> ranks: array<u32>;
 @group(0) @binding(4) var<storage, read_write> entries_out: array<Box>;

@@ -1,4 +1,4 @@
-// Addition that stops at the largest number, still associative: a sum that is too large is seen, not wrapped.
+// Saturating addition, which is associative: a sum that is too large is detected and does not wrap.
 
 fn saturating_add(a: u32, b: u32) -> u32 {
     let sum = a + b;

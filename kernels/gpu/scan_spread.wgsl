@@ -1,5 +1,5 @@
-// Merrill & Grimshaw 2009, Parallel scan for stream architectures, reduce-then-scan, the way down: each value
-// becomes the sum of all before it, from the sums before its run.
+// Merrill & Grimshaw 2009, Parallel scan for stream architectures, reduce-then-scan, downsweep: each value
+// becomes the sum of all preceding values, from the sums before its run.
 // needs invocation, saturate
 
 @group(0) @binding(0) var<storage, read_write> scanned: array<u32>;
@@ -22,7 +22,7 @@ fn scan_spread(
     let end = min((run + 1u) * RUN, length);
     var sum = run_starts[run];
     for (var n = run * RUN; n < end; n += 8u) {
-        // Eight loads that do not wait for each other.
+        // Eight independent loads.
         var next: array<u32, 8>;
         for (var k = 0u; k < 8u; k++) { // unroll
             next[k] = scanned[min(n + k, end - 1u)];

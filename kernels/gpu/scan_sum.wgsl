@@ -1,9 +1,9 @@
-// Merrill & Grimshaw 2009, Parallel scan for stream architectures, reduce-then-scan, the way up: the sum of each
-// run of 64 values. An invocation adds a run by itself: no barriers, and loops as short as on any adapter.
+// Merrill & Grimshaw 2009, Parallel scan for stream architectures, reduce-then-scan, upsweep: the sum of each
+// run of 64 values. One invocation adds a whole run: no barriers, and short loops.
 // needs invocation, saturate
 
 @group(0) @binding(0) var<storage, read> values: array<u32>;
-// One a run.
+// One per run.
 @group(0) @binding(1) var<storage, read_write> run_sums: array<u32>;
 
 const RUN = 64u;
@@ -21,7 +21,7 @@ fn scan_sum(
     let end = min((run + 1u) * RUN, arrayLength(&values));
     var sum = 0u;
     for (var n = run * RUN; n < end; n += 8u) {
-        // Eight loads that do not wait for each other.
+        // Eight independent loads.
         var next: array<u32, 8>;
         for (var k = 0u; k < 8u; k++) { // unroll
             next[k] = select(0u, values[n + k], n + k < end);

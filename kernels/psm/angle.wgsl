@@ -1,10 +1,10 @@
-// The angle of a vector: what WGSL promises of its own, 4096 units in the last place, is too little for volumes.
+// The angle of a vector: the accuracy that WGSL guarantees for atan2, 4096 ULP, is insufficient for volumes.
 
-// Moshier 1989, Cephes, atanf, to 1e-7: of (x, y) from the x axis, -pi..pi, odd in y.
+// Moshier 1989, Cephes, atanf, to 1e-7: the angle of (x, y) from the x axis, -pi..pi, odd in y.
 fn angle(x: vec4<f32>, y: vec4<f32>) -> vec4<f32> {
     let least = min(abs(x), abs(y));
     let most = max(max(abs(x), abs(y)), vec4(1e-30));
-    // Beyond pi/8 from pi/4 on.
+    // Angles beyond pi/8 are expanded around pi/4.
     let wide = least > 0.41421356 * most;
     let q = select(least, least - most, wide) / select(most, least + most, wide);
     let z = q * q;

@@ -1,6 +1,6 @@
 // The main axis of a vector.
 
-// The axis along which r points most.
+// The axis of the largest component of r.
 fn main_axis(r: vec3<f32>) -> u32 {
     let size = abs(r);
     if (size.x >= size.y && size.x >= size.z) {

@@ -1,39 +1,39 @@
 // Fractions of a sphere in a cell on its surface.
 //
-// Along the main axis z the solid fraction is G(z0) - G(z1), G(z) the volume of the sphere above height z over the cell's square.
-// With h = sqrt(R^2 - x^2 - y^2), u = max(h - z, 0), t = R - z and F(u) = u^2 (z/2 + u/3), the field (C - F) / rho^2 (x, y)
-// has the divergence u for any C, so that by Gauss's theorem G is a sum over the edges of the square:
-//     G = sum of +-a [ integral of (C - F) / rho^2 along what of the edge is in the sphere ] + C (angle of the rest),
-// a being the distance of the edge from the axis. Away from the axis C = 0: the surface adds nothing. Near it C = F(t),
-// which makes the integrand (t + u) / 4 + (t - u)^2 / (12 (R + h)). All terms are of the size of a cell: nothing cancels.
+// Along the main axis z the solid fraction is G(z0) - G(z1), where G(z) is the volume of the sphere above height z over the
+// cell's square. With h = sqrt(R^2 - x^2 - y^2), u = max(h - z, 0), t = R - z and F(u) = u^2 (z/2 + u/3), the field
+// (C - F) / rho^2 (x, y) has the divergence u for any C, so that by Gauss's theorem G is a sum over the edges of the square:
+//     G = sum of +-a [ integral of (C - F) / rho^2 along the part of the edge in the sphere ] + C (angle of the rest),
+// where a is the distance of the edge from the axis. Away from the axis C = 0: the surface adds nothing. Near it C = F(t),
+// which makes the integrand (t + u) / 4 + (t - u)^2 / (12 (R + h)). All terms are of the size of a cell: there is no cancellation.
 // needs tables, axes, ball_power, angle, $effective
 
-// Half the edge of a square, squared, over which the axis is near; for spheres of more than 4 cells their radius.
+// Squared distance from the axis, cells^2, below which a square is near it; for spheres of more than 4 cells, the radius.
 const AXIS = 4.0;
-// Radii below which h ends as a root within a cell.
+// Radius below which h ends like a square root within a cell.
 const SMALL = 3.0;
 const TINY = 1e-30;
-// A solid fraction that is all rounding.
+// Solid fraction within rounding of zero.
 const BALL_EMPTY = 1e-6;
 
-// The square of a cell at one height over the sphere's equator; its edges are right, left, upper, lower.
+// The cross-section of a cell at the height z over the sphere's equator; edges in the order right, left, upper, lower.
 struct Square {
     radius: f32,
     z: f32,
-    // Height of the sphere over it on the axis.
+    // Height of the sphere over the square on the axis.
     t: f32,
     near_axis: bool,
-    // Distances from the axis, and of their middles along them.
+    // Distances of the edges from the axis, and of their middles along the edges.
     a: vec4<f32>,
     b: vec4<f32>,
-    // Powers of their middles.
+    // Powers of the middles of the edges.
     power: vec4<f32>,
 }
 
 const SIDES = vec4(1.0, -1.0, 1.0, -1.0);
 
 fn ball_fraction(part: Part, cell: vec3<i32>) -> Fractions {
-    // A loop, so that compilers do not write the same twice.
+    // A loop, so that compilers do not inline ball_volume twice.
     var ball = part;
     var solid = 0.0;
     var effective = 0.0;
@@ -52,11 +52,11 @@ fn ball_fraction(part: Part, cell: vec3<i32>) -> Fractions {
 }
 
 fn ball_volume(part: Part, cell: vec3<i32>) -> f32 {
-    // By symmetry in the octant where all are positive.
+    // By symmetry, mapped to the octant of positive coordinates.
     let far = abs(centre_from(cell, part.base, part.fraction));
     let at = turned(far, main_axis(far));
     let power = ball_power(part, cell);
-    // The cell about the centre of the sphere reaches both sides of the equator.
+    // A cell around the centre of the sphere extends to both sides of the equator.
     let middle = at.z < 0.5;
     var fraction = 0.0;
     for (var level = 0u; level < select(2u, 3u, middle); level++) {
@@ -80,7 +80,7 @@ fn ball_volume(part: Part, cell: vec3<i32>) -> f32 {
     return select(0.0, min(fraction, 1.0), fraction > BALL_EMPTY);
 }
 
-// at: the middle of the square from the axis; power: its power.
+// at: middle of the square from the axis; power: the power of this middle.
 fn volume_above(at: vec2<f32>, z: f32, power: f32, radius: f32) -> f32 {
     let a = at.xxyy + 0.5 * SIDES;
     let b = at.yyxx;
@@ -93,14 +93,14 @@ fn volume_above(at: vec2<f32>, z: f32, power: f32, radius: f32) -> f32 {
         b,
         power - (SIDES * at.xxyy + 0.25),
     );
-    // Where the edges are in the sphere, from their middles.
+    // The parts of the edges in the sphere, from their middles.
     let y = sqrt(max(square.power + b * b, vec4(0.0)));
     let low = clamp(-y - b, vec4(-0.5), vec4(0.5));
     let high = max(clamp(square.power / max(y + b, vec4(TINY)), vec4(-0.5), vec4(0.5)), low);
     let middle = 0.5 * (low + high);
     let half = 0.5 * (high - low);
-    // Gauss & Legendre's rule with four points; for small spheres with eight, whose variable p (3 - p^2) / 2 takes the
-    // power 3/2 from the ends.
+    // Gauss-Legendre quadrature with four points; for small spheres with eight, in the variable p (3 - p^2) / 2, which
+    // removes the power 3/2 at the ends.
     var line: vec4<f32>;
     if (radius < SMALL) {
         line = 0.011819959 * pair(square, middle, 0.997665966 * half)
@@ -114,7 +114,7 @@ fn volume_above(at: vec2<f32>, z: f32, power: f32, radius: f32) -> f32 {
     line *= half * a;
     if (square.near_axis && square.t > 0.0 && any(half < vec4(0.5))) {
         let c = square.t * square.t * (0.5 * z + square.t / 3.0);
-        // The angles of both ends, as the product of two complex numbers.
+        // The sum of the angles at both ends, as the product of two complex numbers.
         let low_x = a * a + (b - 0.5) * (b + low);
         let low_y = a * (low + 0.5);
         let high_x = a * a + (b + high) * (b + 0.5);
@@ -128,7 +128,7 @@ fn pair(square: Square, middle: vec4<f32>, away: vec4<f32>) -> vec4<f32> {
     return along(square, middle - away) + along(square, middle + away);
 }
 
-// (C - F) / rho^2 at a place of each edge, from its middle.
+// (C - F) / rho^2 at one point per edge, at the distance `place` from its middle.
 fn along(square: Square, place: vec4<f32>) -> vec4<f32> {
     let power = max(square.power - place * (2.0 * square.b + place), vec4(0.0));
     let h = sqrt(square.z * square.z + power);

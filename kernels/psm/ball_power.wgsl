@@ -1,10 +1,10 @@
 // Power of the centre of a cell with respect to a sphere (Steiner 1826), R^2 - |r|^2: positive inside.
 // needs tables
 
-// Larger radii, cells, overflow squares of whole numbers.
+// Larger radii, cells, overflow squares of integers.
 const MAX_WHOLE_RADIUS = 16384.0;
 
-// Whole cells and fractions of one are multiplied apart: the squares that cancel are exact, so that the error is
+// Whole cells and fractions of a cell are multiplied separately: the squares that cancel are exact, so that the error is
 // 1e-7 R, not 1e-7 R^2.
 fn ball_power(part: Part, cell: vec3<i32>) -> f32 {
     let whole = cell - part.base;

@@ -1,4 +1,4 @@
-// Whether a cell is in a sphere, next to it, or on its surface.
+// Whether a cell is inside a sphere, next to it, or on its surface.
 // needs tables, ball_power, $effective
 
 fn ball_quick(part: Part, cell: vec3<i32>) -> f32 {
@@ -19,7 +19,7 @@ fn ball_quick(part: Part, cell: vec3<i32>) -> f32 {
     return UNDECIDED;
 }
 
-// Power of the nearest and of the farthest point of a cube about the cell's centre; `half` is half its edge. Differences
+// Power of the nearest and of the farthest point of a cube around the cell's centre; `half` is half its edge. Differences
 // of squares are multiplied out.
 fn nearest_power(power: f32, far: vec3<f32>, half: f32) -> f32 {
     let gain = select(far * far, half * (2.0 * far - half), far > vec3(half));

@@ -1,10 +1,9 @@
-// Gardner & Sitar 2018, eqs. 11-12: force f and moment f (x) r of one cell, the fluid that the solid entrains there,
-// B = e beta, and the fluid that it displaces beyond that, the solid fraction less B.
+// Gardner & Sitar 2018, eqs. 11-12: force f and moment f (x) r of one cell, the volume of fluid that the solid entrains,
+// B = e beta, and the volume that it displaces in addition, the solid fraction less B.
 // needs solid_cell, wrench
 
 @group(0) @binding(3) var<storage, read> effective_fractions: array<vec2<f32>>;
-// Segments: tiles of one block that follow one another. The first of them, and above SEGMENT_SHIFT bits how many come
-// after it.
+// Segments, consecutive tiles of one block: the first tile, and above SEGMENT_SHIFT bits the number of tiles after it.
 @group(0) @binding(4) var<storage, read> segments: array<u32>;
 
 const SEGMENT_SHIFT = 28u;
@@ -37,7 +36,7 @@ fn segment_at(index: u32) -> u32 {
     return NOTHING;
 }
 
-// The cells of a segment, from `local` on every `stride`-th of each tile.
+// Adds every `stride`-th cell of each tile of a segment, starting at `local`.
 fn add_segment(segment: u32, local: u32, stride: u32) {
     let first = segment & ((1u << SEGMENT_SHIFT) - 1u);
     for (var number = first; number <= first + (segment >> SEGMENT_SHIFT); number++) {

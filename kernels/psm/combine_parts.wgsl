@@ -1,14 +1,15 @@
-// Gardner & Sitar 2018, eq. 10: the fraction of each cell that decides the weight of the solid, and how that solid moves, over
-// all parts that share the cell, where one of them can reach. A workgroup is a lane of a brick with blocks; its invocations share the cells.
+// Gardner & Sitar 2018, eq. 10: the fraction that determines the weight of the solid in each cell that parts can reach, and the
+// velocity of that solid, over all parts that share the cell. A workgroup processes a lane of a brick with blocks; its
+// invocations share the cells.
 // needs tables, psm_planes, psm_storage, brick, joint_closure
 
 override LANES_OF_ELEMENT: u32;
 
-// Lanes of bricks: slot LANES_OF_ELEMENT + lane.
+// Lanes of bricks: slot * LANES_OF_ELEMENT + lane.
 @group(0) @binding(0) var<storage, read> work: array<u32>;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> motions: array<Motion>;
-// Tiles of each lane of a brick with blocks in ascending order, and where they begin.
+// Tiles of each lane in ascending order (lane_tiles), and the index of the first tile of each lane (lane_first).
 @group(0) @binding(3) var<storage, read> lane_first: array<u32>;
 @group(0) @binding(4) var<storage, read> lane_tiles: array<u32>;
 @group(0) @binding(5) var<storage, read> solid_fractions: array<f32>;
@@ -16,19 +17,19 @@ override LANES_OF_ELEMENT: u32;
 
 // Sums over the parts in one cell.
 struct Sums {
-    // Velocity weighed by the effective fractions, and their sum.
+    // Velocity weighted by the effective fractions, and the sum of these fractions.
     solid: vec4<f32>,
-    // The same of parts that touch only, each as one.
+    // The same for parts that only touch the cell, each with the weight one.
     touching: vec4<f32>,
-    // Sum of the solid fractions and the largest of them, the largest effective fraction, and the parts that have one.
+    // Sum and maximum of the solid fractions, largest effective fraction, and number of parts with an effective fraction.
     fraction: f32,
     most: f32,
     largest: f32,
     parts: u32,
-    // Whether a part is interior, or near.
+    // Whether a part has the mark INTERIOR, and whether one has NEAR or TOUCHES.
     interior: bool,
     near: bool,
-    // One more than the number of a block that is in the cell or touches it, 0 where there is none; whether another one does.
+    // One plus the index of a block that is in the cell or touches it, 0 without one; whether another block does too.
     first_block: u32,
     several: bool,
 }
@@ -51,7 +52,7 @@ fn combine_parts(
     let begin = lane_first[lane];
     let end = lane_first[lane + 1u];
     let reach = select(reach_of_all(begin, end), vec2(0u, WORKGROUP), job >= WHOLE);
-    // Most lanes have one tile, and what it says is fetched once for all of their cells.
+    // Most lanes have one tile, whose data is fetched once for all cells.
     let first = lane_tiles[select(0u, begin, begin < end)];
     let tile = tiles[first];
     let motion = motions[tile.block];
@@ -77,12 +78,13 @@ fn combine_parts(
     }
 }
 
-// Effective fraction of a part where all parts fill `all` of the cell: that of the part alone, less the more others fill what
-// it would, were it longer by the cell over one of its edges. Parts that are flush with each other leave what one does.
+// Effective fraction of a part if all parts together fill `all` of the cell: that of the part alone, reduced as other parts
+// fill the volume by which the part would grow if it extended across the cell beyond one of its edges. Flush parts yield the
+// same fraction as a single part.
 fn beside_others(at: u32, all: f32) -> f32 {
     let solid = clamp(solid_fractions[at], 0.0, 1.0);
     let effective = effective_fractions[at];
-    // Two planes at a right angle leave `effective.y` and `other` of the cell.
+    // Two planes at a right angle leave the fractions `effective.y` and `other` of the cell.
     let other = solid / max(effective.y, 1e-9);
     let longer = min(other, effective.y) - solid;
     let free = clamp(1.0 - (all - solid) / max(longer, 1e-9), 0.0, 1.0);

@@ -1,20 +1,21 @@
-// The exact weight of weight_exact.wgsl is that of planes. The fraction in it is that of the volume where one plane cuts a
-// cell; elsewhere it grows by what a curved surface, or an edge, lacks (docs/src/theory/solids.md).
+// Effective fractions for the weight of weight_exact.wgsl, which is exact for planes. If one plane cuts a cell, the effective
+// fraction is the volume fraction; for curved surfaces and edges it is corrected (docs/src/theory/solids.md).
 // needs tables, faces, one_plane
 
-// c of a sphere, cells^2: its radius grows by c / R.
+// Constant c of a sphere, cells^2: its radius grows by c / R.
 override SPHERE_GROWTH: f32;
 
-// Radius below which that is no more, cells.
+// Radius, cells, below which the growth is constant.
 const LEAST_RADIUS = 2.0;
 
 fn effective_radius(radius: f32) -> f32 {
     return radius + SPHERE_GROWTH / max(radius, LEAST_RADIUS);
 }
 
-// Where several planes cut a cell: the fraction that the lowest one alone leaves, drawn to that of another one the more, the
-// steeper both meet and the less of the cell it leaves: a plane that goes out of the cell has no part in it. Less where
-// planes meet in a tip that has just entered the cell. Beside other parts the lowest plane counts.
+// Effective fractions of a cell that several planes cut, alone and next to other parts. Alone: the fraction below the lowest
+// plane, averaged with that below another plane. The weight of the other plane increases with the angle between both and with
+// the fraction that it cuts off; a plane that leaves the cell has no effect. Next to other parts: the fraction below the
+// lowest plane. Both are reduced for a tip that has just entered the cell.
 fn effective_hull(part: Part, r: vec3<f32>, solid: f32) -> vec2<f32> {
     if (solid <= 0.0) {
         return vec2(0.0);
@@ -51,7 +52,7 @@ fn left_by(part: Part, k: u32, r: vec3<f32>) -> f32 {
     return max(one_plane_volume(face.xyz, s, w), EMPTY);
 }
 
-// The fourth root makes the drag of a cube that of bounce-back at every offset.
+// Weight of a plane. With the fourth root, the drag of a cube equals that of bounce-back at every offset.
 fn draw(left: f32) -> f32 {
     return sqrt(sqrt((1.0 - left) / left));
 }

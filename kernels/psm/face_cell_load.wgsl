@@ -1,21 +1,21 @@
 // Batchelor 1967, eq. 3.3.11 at a wall: the traction t = -p n + nu du/dn of the fluid on one face of a part, from the
-// layer of cells along it; the tangential velocity is linear between the face and a cell's centre. Inside the solid
-// no force belongs to one face: full cells reflect what was in them when they were covered.
+// layer of cells along it; the tangential velocity is linear between the face and a cell's centre. Forces
+// inside the solid belong to no face: full cells reflect the populations that they contained when they were covered.
 // needs solid_cell, psm_planes, face_layer, face_siblings
 
-// Of the fluid, lattice units.
+// Viscosity of the fluid, lattice units.
 override VISCOSITY: f32;
 
 struct FaceJob {
     tile: u32,
-    // Number of the face in its part.
+    // Index of the face in its part.
     face: u32,
 }
 
 @group(0) @binding(4) var<storage, read> jobs: array<FaceJob>;
 @group(0) @binding(5) var<storage, read> parts: array<Part>;
-// FACE_LOAD per job, sums over the cells: traction (3), its moment about the block's centroid (3), height, their feet on
-// the face from there (3) and the products of these (xx, yy, zz, yz, zx, xy), cells with fluid, cells.
+// FACE_LOAD numbers per job, sums over the cells: traction (3), its moment about the block's centroid (3), height, foot on
+// the face from the centroid (3) and its products (xx, yy, zz, yz, zx, xy), cells with fluid, cells.
 @group(0) @binding(7) var<storage, read_write> face_partials: array<f32>;
 
 var<private> sums: array<f32, FACE_LOAD>;
@@ -32,7 +32,7 @@ fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
         return;
     }
     let at = local * LANES_OF_ELEMENT + tile.lane;
-    // Another block may be in the cell, or a wall.
+    // The cell may contain another block or a wall.
     let sum = decode_sum(read_psm(PLANE_SUM, tile.slot, at));
     let fluid = sum.adjacent && read_psm(PLANE_BETA, tile.slot, at) != 0.0;
     if (!fluid && hidden == CUT) {
@@ -64,7 +64,7 @@ fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
     sums[FACE_LOAD - 2u] += 1.0;
 }
 
-// The cells of a job, from `local` on every `stride`-th. Cells that the part does not reach are not next to it.
+// Adds every `stride`-th cell of a job, starting at `local`. Only cells that the part can reach may be next to it.
 fn add_layer(job: FaceJob, local: u32, stride: u32) {
     let tile = tiles[job.tile];
     let reach = reach_of(tile.inside);

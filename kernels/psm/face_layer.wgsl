@@ -2,15 +2,15 @@
 // needs tables, faces
 
 struct LayerCell {
-    // Its foot on the plane of the face lies in the face, and the cell in the layer.
+    // Whether the cell lies in the layer, and its foot on the plane of the face lies in the face.
     here: bool,
     normal: vec3<f32>,
-    // Of its centre over the face.
+    // Height of the cell's centre over the face.
     height: f32,
 }
 
-// r: the centre of the cell from the part's centroid. The layer begins where cells no longer reach through the plane
-// and is one cell thick, so that it holds one cell for each unit of the face's area.
+// r: the centre of the cell from the part's centroid. The layer begins where cells no longer intersect the plane
+// and is one cell thick, so that it contains one cell per unit of the face's area.
 fn layer_cell(part: Part, number: u32, r: vec3<f32>) -> LayerCell {
     let own = faces[part.first_face + number];
     let height = dot(own.xyz, r) - own.w;

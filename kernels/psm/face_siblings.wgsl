@@ -1,18 +1,18 @@
-// Cells along one face of a part that other parts of its block are in.
+// Relation of the cells along one face of a part to the other parts of its block.
 // needs tables, faces, face_layer
 
 // Gap between the face and another part, cells, below which there is a seam.
 const SEAM_GAP = 1e-3;
 
-// What other parts are to a cell: not in it, in it, or over the face at its foot.
+// Position of the other parts: outside of the cell, in the cell, or over the face at the foot of the cell.
 const OPEN = 0u;
 const CUT = 1u;
 const SEAM = 2u;
 
-// In a seam there is no fluid to press; a cell that another part cuts may stand for water along it all the same.
+// A seam contains no fluid that could exert pressure. A cell that another part cuts may still contain water at the face.
 fn sibling_over_face(tile: Tile, cell: vec3<i32>, layer: LayerCell) -> u32 {
     var found = OPEN;
-    // The parts of a block follow each other.
+    // The parts of a block are consecutive.
     for (var k = tile.part; k > 0u && parts[k - 1u].block == tile.block; k--) {
         found = max(found, part_over_face(parts[k - 1u], cell, layer));
     }

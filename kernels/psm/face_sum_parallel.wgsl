@@ -1,4 +1,4 @@
-// A workgroup per job: 64 invocations share its cells, and the first FACE_LOAD of them add up one number each.
+// One workgroup per job: 64 invocations share its cells, and the first FACE_LOAD of them add up one number each.
 // needs face_cell_load
 
 // The sums of an invocation are contiguous, so that the invocations that add them read from different banks.

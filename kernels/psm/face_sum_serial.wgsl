@@ -1,4 +1,4 @@
-// An invocation per job: no barriers, which cost a CPU more than the sum.
+// One invocation per job: no barriers, which cost a CPU more than the sum.
 // needs face_cell_load
 
 fn sum_job(index: u32, local: u32) {

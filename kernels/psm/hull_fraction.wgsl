@@ -23,9 +23,9 @@ fn hull_fraction(part: Part, r: vec3<f32>) -> Fractions {
     return Fractions(solid, effective_hull(part, r, solid));
 }
 
-// By columns through all faces of the part.
+// Volume by columns that are clipped by all faces of the part.
 fn many_planes_volume(part: Part, r: vec3<f32>) -> f32 {
-    // Some adapters end loops after 65535 turns without a word: these are at most 41000 for up to 8192 faces.
+    // Some adapters silently end loops after 65535 iterations; these take at most 41000 for up to 8192 faces.
     let n = clamp(2u * u32(sqrt(f32(8192u / part.faces))), 2u, 8u);
     let axis = main_axis(r);
     var sum = 0.0;
@@ -44,7 +44,7 @@ fn column_length(part: Part, r: vec3<f32>, axis: u32, at: vec2<f32>) -> f32 {
         let face = faces[part.first_face + k];
         let n = turned(face.xyz, axis);
         let s = dot(face.xyz, r) - face.w + dot(n.xy, at);
-        // Steeper faces than this do not end in the cell.
+        // A steeper face does not cross the column within the cell.
         if (abs(n.z) < 1e-6) {
             if (s > 0.0) {
                 return 0.0;

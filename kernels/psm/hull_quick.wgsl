@@ -15,7 +15,7 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
         let face = faces[part.first_face + k];
         let s = dot(face.xyz, r) - face.w;
         let w = half_width(face.xyz);
-        // A cell next to this one is at most 2 w lower, one two layers away at most 4 w higher.
+        // A neighbouring cell is at most 2 w lower, and a cell two layers away at most 4 w higher.
         if (s >= 3.0 * w) {
             return 0.0;
         }
@@ -45,8 +45,8 @@ fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
     return select(NEAR, TOUCHES, touches(part, r, last));
 }
 
-// Whether the foot of the cell's centre on a face, normal and height, lies in the face, so close that nothing is
-// between the cell and it.
+// Whether the foot of the cell's centre on a face lies in the face, and there is no gap between the cell and the face;
+// own: normal of the face, and height of the centre over it.
 fn touches(part: Part, r: vec3<f32>, own: vec4<f32>) -> bool {
     var here = own.w < half_width(own.xyz) + TOUCHING_GAP;
     let foot = r - own.w * own.xyz;

@@ -1,4 +1,4 @@
-// Partially saturated cells: the ten planes of numbers that blocks and fluid exchange, for each brick that blocks reach.
+// Partially saturated cells: the ten planes of values that blocks and fluid exchange, for each brick that blocks reach.
 // needs $lanes
 
 // Sum of the effective fractions of all parts, with a code: see encode_sum.
@@ -10,26 +10,26 @@ const PLANE_VELOCITY = 1u;
 const PLANE_BETA = 4u;
 const PLANE_A = 5u;
 const PLANE_G = 6u;
-// Before a step with a wall model the same planes hold the friction of blocks in the cells at their faces: the part of the law of the
-// wall, and its stress over the density (3).
+// Before a step with a wall model, the same planes hold the friction of blocks in the cells at their faces: the share of the
+// law of the wall, and its stress over the density (3).
 const PLANE_SHARE = PLANE_A;
 const PLANE_STRESS = PLANE_G;
-// Fraction that decides the weight of the solid, 0..1.
+// Fraction that determines the weight of the solid, 0..1.
 const PLANE_FRACTION = 9u;
 
-// Added to the sum in a cell that is in the interior of one of the blocks.
+// Added to the sum of a cell in the interior of a block.
 const INTERIOR_SUM = 8.0;
-// Added to the sum in a cell of a joint that closes, in which several blocks meet.
+// Added to the sum of a cell of a closing joint, in which several blocks meet.
 const JOINT_SUM = 16.0;
-// In place of that where the joint has two rows of cells: a block fills the cell, and the other one the next cell.
+// Replaces JOINT_SUM if the joint has two rows of cells: one block fills the cell, and the other block the next cell.
 const FACING_SUM = 24.0;
-// In place of both where they leave more of it.
+// Replaces both if the blocks leave more of the cell empty.
 const SHARED_SUM = 32.0;
-// The sum of an empty cell next to one that is not.
+// The sum of an empty cell next to a non-empty one.
 const NEAR_SUM = -1.0;
 
 struct SolidSum {
-    // Sum over the blocks; more than 1 where they overlap.
+    // Sum over the blocks; more than 1 if they overlap.
     fraction: Real,
     // Next to a block, or in one.
     near: Mask,
@@ -38,7 +38,7 @@ struct SolidSum {
     interior: Mask,
     joint: Mask,
     facing: Mask,
-    // Whether several blocks meet in it.
+    // Whether several blocks meet in the cell.
     several: Mask,
 }
 

@@ -1,11 +1,11 @@
-// Gardner & Sitar 2018, eqs. 11-12: the sum over the segments of each block, in a fixed order. A workgroup is a block.
+// Gardner & Sitar 2018, eqs. 11-12: the sum over the segments of each block, in a fixed order. One workgroup per block.
 // needs workgroup_index, sum_of_all
 
-// Segments before each block, and all.
+// Number of segments before each block, and of all.
 @group(0) @binding(0) var<storage, read> block_first: array<u32>;
-// WRENCH a segment.
+// WRENCH numbers per segment.
 @group(0) @binding(1) var<storage, read> partials: array<f32>;
-// WRENCH a block.
+// WRENCH numbers per block.
 @group(0) @binding(2) var<storage, read_write> wrenches: array<f32>;
 
 @compute @workgroup_size(64)

@@ -1,8 +1,8 @@
-// Gardner & Sitar 2018, eqs. 11-12: the sum over the cells of the tiles of each segment, and nothing that depends on the
-// order in which the device works.
+// Gardner & Sitar 2018, eqs. 11-12: the sum over the cells of the tiles of each segment, independent of the order in
+// which the device executes.
 // needs cell_load, $tile_sum
 
-// WRENCH a segment.
+// WRENCH numbers per segment.
 @group(0) @binding(5) var<storage, read_write> partials: array<f32>;
 
 @compute @workgroup_size(64)

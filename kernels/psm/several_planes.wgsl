@@ -1,13 +1,13 @@
 // Lasserre 1983, J. Optim. Theory Appl. 39:363: the volume of a convex polyhedron from its planes alone. With the
 // origin at a corner of the cell, V = sum of d A / 3 over the faces, and A = sum of d L / 2 over the sides of a face.
-// The three faces and two sides of the cell through the origin add nothing. Every A depends on its planes without
-// jumps, however many meet in a point, and so does V. Planes lie in vectors, not in arrays: those would be memory.
+// The three faces and two sides of the cell through the origin add nothing. Every A depends continuously on its
+// planes, however many meet in a point, and so does V. Planes are kept in vectors, because arrays would be in memory.
 // needs axes
 
-// Planes that may cut a cell; one place more is for a face of the cell.
+// Largest number of planes that cut a cell; one more entry is for a face of the cell.
 const CUTS = 7u;
-// Sine of the angle below which two planes count as parallel: what that neglects, and the rounding of where they meet
-// otherwise, are both below 1e-4 of the cell.
+// Sine of the angle below which two planes count as parallel: the resulting error, and the rounding error of
+// intersections at larger angles, are both below 1e-4 of the cell.
 const PARALLEL = 3e-4;
 
 // Four planes x X + y Y + z Z <= d, from the lower corner of the cell.
@@ -57,7 +57,7 @@ fn cut_of(cuts: Cuts, number: u32) -> vec4<f32> {
     return select(low, high, number > 3u);
 }
 
-// What the first `count` cuts leave of the unit cell.
+// Volume that the first `count` cuts leave of the unit cell.
 fn several_planes_volume(cuts: Cuts, count: u32) -> f32 {
     var sum = 0.0;
     for (var face = 0u; face < 3u + count; face++) {
@@ -73,13 +73,13 @@ fn twice_face(cuts: Cuts, count: u32, face: u32) -> f32 {
     let cut = cut_of(cuts, face - 3u);
     let axis = select(main_axis(cut.xyz), face, of_cell);
     let n = select(turned(cut.xyz, axis), vec3(0.0, 0.0, 1.0), of_cell);
-    // Both sides times the sign: the lines on the face keep their sense.
+    // Both sides are multiplied by the sign, so that the lines on the face keep their orientation.
     let own = select(vec4(n, cut.w) * sign(n.z), vec4(n, 1.0), of_cell);
     let number = select(face - 3u, 8u, of_cell);
     let next = select(count, 8u, of_cell);
     let low = on_face(turned_planes(cuts.low, axis), own, LOW, number, next);
     let high = on_face(turned_planes(cuts.high, axis), own, HIGH, number, next);
-    // Seen along the axis the face is smaller than it is.
+    // Corrects for the projection of the face along the axis.
     return twice_area(low, high, select(count + 1u, count, of_cell)) / abs(n.z);
 }
 
@@ -93,8 +93,8 @@ fn turned_planes(p: Planes, axis: u32) -> Planes {
     return p;
 }
 
-// Where planes meet the face own.xyz . X = own.w, own.z > 0, seen along Z. In its own place stands Z >= 0, in the place
-// `next` Z <= 1.
+// Intersections of planes with the face own.xyz . X = own.w, own.z > 0, projected along Z. The entry of the face itself
+// becomes Z >= 0, and the entry `next` Z <= 1.
 fn on_face(p: Planes, own: vec4<f32>, numbers: vec4<u32>, number: u32, next: u32) -> Lines {
     let lowest = numbers == vec4(number);
     let highest = numbers == vec4(next);
@@ -103,8 +103,8 @@ fn on_face(p: Planes, own: vec4<f32>, numbers: vec4<u32>, number: u32, next: u32
     let d = select(select(p.d * own.z - p.z * own.w, vec4(own.w), lowest), vec4(own.z - own.w), highest);
     let length = sqrt(x * x + y * y);
     let parallel = length <= vec4(PARALLEL);
-    // Parallel ones become lines that leave all of the unit square or nothing; of two faces that are the same the first
-    // cut counts.
+    // Parallel planes become lines that leave all or nothing of the unit square; of two identical faces, the first cut
+    // counts.
     let all = (d > vec4(0.0)) | ((d == vec4(0.0)) & (numbers >= vec4(number)));
     return Lines(
         select(x / length, vec4(1.0), parallel),
@@ -121,7 +121,7 @@ fn twice_area(low: Lines, high: Lines, count: u32) -> f32 {
     for (var e = 0u; e < count; e++) {
         let k = e & 3u;
         let line = select(vec3(low.x[k], low.y[k], low.d[k]), vec3(high.x[k], high.y[k], high.d[k]), e > 3u);
-        // No line is longer in the square, from wherever its foot is.
+        // Larger than the stretch of any line in the square, measured from its foot.
         let inside = stretch_within(vec2(-2.0, 2.0), SQUARE, line, vec4(true), vec4(false));
         let side = stretch_between(inside, low, high, line, e);
         sum += line.z * (side.y - side.x);
@@ -129,7 +129,7 @@ fn twice_area(low: Lines, high: Lines, count: u32) -> f32 {
     return sum;
 }
 
-// What all lines but number e leave of a stretch of that.
+// The part of a stretch of line e that all other lines leave.
 fn stretch_between(stretch: vec2<f32>, low: Lines, high: Lines, line: vec3<f32>, e: u32) -> vec2<f32> {
     let number = vec4(e);
     let first = vec4(e < 8u);
@@ -137,8 +137,8 @@ fn stretch_between(stretch: vec2<f32>, low: Lines, high: Lines, line: vec3<f32>,
     return stretch_within(left, high, line, (HIGH < number) & first, HIGH == number);
 }
 
-// What lines that are not `skipped` leave of a stretch of line x X + y Y = d. A parallel one may hide all of it; of two
-// that are the same the first one counts, and of two with nothing between them none.
+// The part of a stretch of line x X + y Y = d that the lines that are not `skipped` leave. A parallel line may hide all of
+// it; of two identical lines the first one counts, and of two opposite lines with no space between them neither.
 fn stretch_within(
     stretch: vec2<f32>,
     l: Lines,
@@ -149,8 +149,8 @@ fn stretch_within(
     let along = l.x * line.x + l.y * line.y;
     let rate = l.y * line.x - l.x * line.y;
     let parallel = abs(rate) <= vec4(PARALLEL);
-    // Compared, not subtracted: a device may fuse a difference with the product that l.d is, and then two lines would
-    // not agree about which of them is the lower one.
+    // Compared, not subtracted: a device may fuse a difference with the product that yields l.d, and then the results for
+    // two lines would contradict each other about which one is lower.
     let behind = (l.d < vec4(line.z)) | ((l.d == vec4(line.z)) & first);
     let hides = select(l.d <= vec4(-line.z), behind, along >= vec4(0.0));
     if (any(parallel & hides & !skipped)) {

@@ -1,10 +1,10 @@
-// The wrenches of a workgroup of 64 added up in a fixed order.
+// Sum of the wrenches of a workgroup of 64 in a fixed order.
 // needs wrench
 
-// Those of an invocation next to each other, so that the invocations that add them read from different banks.
+// The values of an invocation are contiguous, so that the invocations that add them read from different banks.
 var<workgroup> wrenches_of_all: array<f32, 64 * WRENCH>;
 
-// Number `local` of the sum, for the first WRENCH invocations.
+// Component `local` of the sum, for the first WRENCH invocations.
 fn sum_of_all(local: u32) -> f32 {
     for (var k = 0u; k < 20u; k++) { // unroll
         wrenches_of_all[local * WRENCH + k] = wrench[k];

@@ -1,35 +1,35 @@
-// Blocks in the lattice as partially saturated cells: what the host passes to the device. Lattice units: a cell and a
-// step are one.
+// Blocks in the lattice as partially saturated cells: data that the host passes to the device, in lattice units (a cell and
+// a step are one).
 
-// The part of one convex part of a block in one lane of one brick with blocks.
+// The section of a convex part of a block in one lane of a brick with blocks.
 struct Tile {
-    // Its lowest cell, shifted by whole periods to be next to the part.
+    // Lowest cell of the tile, shifted by whole periods to be next to the part.
     cell: vec3<i32>,
     part: u32,
     block: u32,
-    // Number of the brick among the bricks with blocks.
+    // Index of the brick among the bricks with blocks.
     slot: u32,
     lane: u32,
-    // Cells an axis, from the lowest, that lie in the domain: x, y and z in 8 bits each, x lowest. Above them the eighths
-    // of its cells, in the order of the workgroup, that the part can reach: the first, and one past the last, in 4 bits.
+    // Packed range. Number of cells per axis, from the lowest, in the domain: x, y and z in 8 bits each, x lowest. Above them
+    // the eighths of the cells, in workgroup order, that the part can reach: the first, and one past the last, in 4 bits each.
     inside: u32,
 }
 
-// Where a convex part is: its centroid is at base + fraction, so that cell - base is exact.
+// Position of a convex part: its centroid is at base + fraction, so that cell - base is exact.
 struct Part {
     base: vec3<i32>,
     first_face: u32,
     fraction: vec3<f32>,
-    // None: a sphere of `radius`.
+    // Number of faces; 0 for a sphere of `radius`.
     faces: u32,
-    // Its bounding box, from the centroid.
+    // Bounding box from the centroid.
     low: vec3<f32>,
     radius: f32,
     high: vec3<f32>,
     block: u32,
 }
 
-// How a block moves: at r from its centroid base + fraction with velocity + gradient_x r.x + gradient_y r.y +
+// Motion of a block: the velocity at r from its centroid base + fraction is velocity + gradient_x r.x + gradient_y r.y +
 // gradient_z r.z.
 struct Motion {
     base: vec3<i32>,
@@ -46,24 +46,24 @@ struct Motion {
     pad5: u32,
 }
 
-// Solid fraction of a part in a cell that is inside it with two layers of cells around.
+// Mark in place of the solid fraction of a part in a cell: the cell and two layers of cells around it are inside the part.
 const INTERIOR = 2.0;
-// Solid fraction of a part in a cell that it leaves empty, next to a cell that it does not.
+// Mark of a cell that the part leaves empty, next to a cell that it does not.
 const NEAR = -1.0;
-// The same of a cell whose side lies on a face of the part.
+// The same for a cell whose side lies on a face of the part.
 const TOUCHES = -2.0;
-// Solid fraction of a cell that is left to voxelise_edges.
+// Mark of a cell that is left to voxelise_edges.
 const UNDECIDED = 4.0;
-// Numbers that a block has: force (3), moment (9), entrained fluid, displaced fluid, first moments of both (3 + 3).
+// Numbers per block: force (3), moment (9), entrained fluid, displaced fluid, first moments of both (3 + 3).
 const WRENCH = 20u;
-// Numbers that a face has: traction (3), moment (3), height, feet (3), products of feet (6), cells with fluid, cells.
+// Numbers per face: traction (3), moment (3), height, feet (3), products of feet (6), cells with fluid, cells.
 const FACE_LOAD = 18u;
 
-// Of a part in a cell.
+// Fractions of a part in a cell.
 struct Fractions {
-    // Its volume there.
+    // Volume of the part in the cell.
     solid: f32,
-    // What decides the weight of the solid: where the part is alone, and where others fill the cell beside it.
+    // Effective fraction, which determines the weight of the solid: for the part alone, and if others fill the cell next to it.
     effective: vec2<f32>,
 }
 

@@ -1,4 +1,4 @@
-// A workgroup a segment: its reads are neighbours in memory, and its invocations are added up once for all of its tiles.
+// One workgroup per segment: its reads are contiguous, and the sums of its invocations are added once for all of its tiles.
 // needs cell_load, sum_of_all
 
 fn sum_segment(index: u32, local: u32) {

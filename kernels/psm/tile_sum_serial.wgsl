@@ -1,4 +1,4 @@
-// An invocation a segment: no barriers, which cost a CPU more than the sum.
+// One invocation per segment: no barriers, which cost a CPU more than the sum.
 // needs cell_load
 
 fn sum_segment(index: u32, local: u32) {

@@ -1,19 +1,19 @@
 // Gardner & Sitar 2018, fig. 3: the solid fraction, volume of (cell and convex part) / volume of the cell, of one part
-// in each cell of the listed tiles that it can reach, and its effective fraction, which decides the weight of the solid. A workgroup is a tile; its invocations share the cells. Cells at
-// edges, and on spheres, are few and dear: they are put on a list for voxelise_edges, in any order, since neighbours in a
-// workgroup would wait for them.
+// in each cell of the listed tiles that it can reach, and its effective fraction, which determines the weight of the
+// solid. A workgroup processes a tile; its invocations share the cells. Cells at edges and on spheres are few and expensive:
+// they are appended to a list for voxelise_edges, in any order, because other cells of the workgroup would wait for them.
 // needs tables, brick, $ball_quick, $hull_quick
 
 @group(0) @binding(0) var<storage, read> work: array<u32>;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;
-// WORKGROUP a tile.
+// WORKGROUP numbers per tile.
 @group(0) @binding(4) var<storage, read_write> solid_fractions: array<f32>;
 @group(0) @binding(7) var<storage, read_write> effective_fractions: array<vec2<f32>>;
 
 struct Edges {
     count: atomic<u32>,
-    // Places in `solid_fractions`.
+    // Indices into `solid_fractions`.
     cells: array<u32>,
 }
 

@@ -1,4 +1,4 @@
-// Gardner & Sitar 2018, fig. 3: the fractions of one part in each cell that voxelise has left over.
+// Gardner & Sitar 2018, fig. 3: the fractions of one part in each cell that voxelise has left undecided.
 // needs workgroup, tables, brick, $ball_fraction, $hull_fraction
 
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
@@ -8,13 +8,13 @@
 
 struct Edges {
     count: u32,
-    // Places in `solid_fractions`.
+    // Indices into `solid_fractions`.
     cells: array<u32>,
 }
 
 @group(0) @binding(5) var<storage, read> edges: Edges;
 
-// The host does not know how many cells there are: each invocation goes on until there are no more.
+// The host does not know the number of cells: each invocation continues until none are left.
 @compute @workgroup_size(64)
 fn voxelise_edges(
     @builtin(workgroup_id) group: vec3<u32>,

@@ -1,4 +1,4 @@
-// What an invocation has added up for a segment or a block.
+// Sums of an invocation for a segment or a block.
 // needs tables
 
 // Force (3), moment about the block's centroid (3 x 3, f_i r_j at 3 + 3 i + j), B, e - B, first moments of B (3) and

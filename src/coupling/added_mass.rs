@@ -28,7 +28,7 @@ impl AddedMass {
     /// the thickness of the viscous layer: at least a cell, or the diffusion length between two exchanges.
     pub fn bound(volume: f64, inertia: DMat3, layer: f64) -> Self {
         let moments = Principal::of(inertia).moments;
-        // Of a box, I_x = V (b² + c²)/12.
+        // For a box, I_x = V (b² + c²)/12.
         let squares = (0.5 * moments.element_sum() - moments) * (12.0 / volume);
         let mut edges = squares.to_array().map(|square| square.max(0.0).sqrt());
         edges.sort_by(f64::total_cmp);
@@ -46,9 +46,9 @@ impl AddedMass {
 /// Mass properties of a block.
 #[derive(Clone, Copy, Debug)]
 pub struct MassProperties {
-    /// kg.
+    /// Mass, kg.
     pub mass: f64,
-    /// m³.
+    /// Volume, m³.
     pub volume: f64,
     /// Inertia tensor for a density of one, world axes, m⁵.
     pub inertia: DMat3,
@@ -76,7 +76,7 @@ pub struct MassProperties {
 pub struct InteriorInertia {
     /// Velocity and spin at the last exchange, m/s and rad/s; `None` before the first one.
     velocity: Option<[DVec3; 2]>,
-    /// Result of the last exchange: acceleration by fluid and gravity, m/s², and torque over the density of the
+    /// Result of the last exchange: acceleration due to fluid and gravity, m/s², and torque over the density of the
     /// rock, m⁵/s². For a block with prescribed motion: its linear and angular acceleration, m/s² and rad/s².
     response: [DVec3; 2],
 }
@@ -105,7 +105,7 @@ impl InteriorInertia {
         let [virtual_mass, virtual_inertia] = [properties.added.mass, properties.added.inertia]
             .map(|bound| 0.5 * (bound * displaced - rock).max(0.0));
         let force = load.force / properties.volume + interior * linear + rock * properties.gravity;
-        // At the start: the acceleration by weight and buoyancy.
+        // At the start: the acceleration due to weight and buoyancy.
         let [acceleration_before, torque_before] = if is_initialised {
             self.response
         } else {
@@ -126,7 +126,7 @@ impl InteriorInertia {
         }
     }
 
-    /// Whether there has been an exchange.
+    /// Whether an exchange has taken place.
     pub fn is_initialised(&self) -> bool {
         self.velocity.is_some()
     }

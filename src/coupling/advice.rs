@@ -18,7 +18,7 @@ use glam::DVec3;
 
 /// Fewest cells across a resolved block: in a cube of this width, 42 % of the cells contain no surface.
 const MIN_CELLS_ACROSS: f64 = 8.0;
-/// Tolerance of that number, cells: a width that is printed as 8.0 passes.
+/// Tolerance of [`MIN_CELLS_ACROSS`], cells: a width that is printed as 8.0 passes.
 const WIDTH_TOLERANCE: f64 = 0.05;
 
 /// The block with the smallest value among those below a limit.
@@ -175,7 +175,7 @@ const FALL_SPEED_RATIO: f64 = 1.5;
 /// particles, `state` the initial state of `blocks`.
 ///
 /// # Errors
-/// [`crate::Error::Scene`] if a body of water has an invalid shape; those of the search for gaps.
+/// [`crate::Error::Scene`] if a body of water has an invalid shape; errors of the search for gaps.
 pub async fn particle_advice(
     scene: &Scene,
     blocks: &BlockSetup,
@@ -309,7 +309,7 @@ fn check_support(
     warn: &mut impl FnMut(String, String),
 ) {
     let falls = |axis: usize| setup.faces[axis][0] == Side::Periodic || setup.gravity[axis] == 0.0;
-    // Walls come after the blocks and solids.
+    // Walls follow the blocks and solids in the list.
     let supports = blocks
         .setup
         .blocks

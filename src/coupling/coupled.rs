@@ -1,4 +1,4 @@
-//! The blocks of a scene in its lattice: their cells, those at inlets, and the film in gaps narrower than a cell.
+//! The blocks of a scene in its lattice: their cells, blocks at inlets, and the film in gaps narrower than a cell.
 
 use super::{
     CouplingParams, FluidLoad, Gap, InteriorFluid, LatticeCoupling, Rock, gaps::gaps,
@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 /// Work of the coupling since the start or the last restart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Exchanges {
-    /// Times that the host waited for loads: once for each exchange.
+    /// Number of times the host waited for loads: once per exchange.
     pub readings: u64,
     /// Computation of the blocks' cells.
     pub cells: CellWork,
@@ -34,10 +34,10 @@ pub struct Coupled<'a> {
     pub(super) coupling: &'a LatticeCoupling,
 }
 
-/// The blocks of a scene, as `setup` has them, and their coupling to its lattice.
+/// Creates the blocks of a scene from `setup` and couples them to its lattice.
 ///
 /// # Errors
-/// Those of an invalid setup of blocks, and limits of the device.
+/// Returns the errors of an invalid setup of blocks, and of exceeded device limits.
 pub(crate) async fn couple(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -52,7 +52,7 @@ pub(crate) async fn couple(
     let interval = f64::from(scene.coupling.interval) * units.time_step;
     let params = CouplingParams {
         time_step: units.time_step,
-        // Half a step of margin for the rounding of times.
+        // A margin of half a step for the rounding of times.
         hold: (hold - 0.5) * units.time_step,
         inside: Some(InteriorFluid {
             density: scene.fluid.density,
@@ -122,7 +122,7 @@ impl<'a> Coupled<'a> {
         self.rock.setup()
     }
 
-    /// Number of blocks that are in the fluid, the first ones; the others are its solids and walls.
+    /// Number of blocks in the fluid. They come first in the list; solids and walls follow.
     pub fn in_fluid(&self) -> usize {
         self.rock.setup().in_fluid
     }
@@ -209,8 +209,8 @@ impl Coupled<'_> {
         }
     }
 
-    /// The blocks in cells of velocity faces with a velocity other than zero; `through` has the velocity of each cell
-    /// of such a face along its normal, lower axis fastest.
+    /// The blocks in cells of velocity faces with a velocity other than zero; `through` holds the normal velocity of each
+    /// cell of such a face, lower axis fastest.
     pub(crate) fn at_inlets(&self, through: &[(Face, Vec<f64>)]) -> Vec<BlockAtInlet> {
         let mut all: Vec<BlockAtInlet> = Vec::new();
         if through.is_empty() {
@@ -277,7 +277,7 @@ impl Coupled<'_> {
         let velocity_face = |(face, boundary): (Face, &Boundary)| {
             matches!(boundary, Boundary::Velocity { .. }).then_some(face)
         };
-        // The largest speed of each cell. A formula that is not finite at a later time is an error at that time.
+        // The largest speed of each cell. A formula that is not finite at a later time fails at that time.
         let largest = |face: Face| {
             let mut all: Vec<f64> = Vec::new();
             for time in [0.0, 0.5 * length, length] {
@@ -325,9 +325,9 @@ pub(crate) struct BlockAtInlet {
     pub face: Face,
     /// Number of cells.
     pub cells: usize,
-    /// The first of them.
+    /// The first of these cells.
     pub first: [u32; 3],
-    /// Largest normal velocity through them, in the unit of the given velocities.
+    /// Largest normal velocity through these cells, in the unit of the given velocities.
     pub speed: f64,
 }
 
@@ -338,19 +338,19 @@ const ROUGHNESS: f64 = 0.1;
 /// the lattice yields 0.91 of the force at a gap of one cell, 0.78 at half a cell and 0.55 at a quarter. A limit of 2/3 of
 /// a cell (as Nguyen & Ladd 2002 found with other walls) leaves errors of −2, +13 and +11 % at 0.5, 0.25 and 0.12 cells.
 const CURVED_GAP: f64 = 2.0 / 3.0;
-/// The same between plane faces, where the force grows with the third power of the gap: the lattice yields 0.92 of it at
-/// a cell, 0.21 at half a cell, and 0.04 at a quarter.
+/// The same limit for plane faces, between which the force grows with the third power of the gap: the lattice yields 0.92
+/// of it at a cell, 0.21 at half a cell, and 0.04 at a quarter.
 const PLANE_GAP: f64 = 0.8;
 
-/// Gap of plane faces, cells, below which both may lie in a cell, whose water then is a spring between them.
+/// Gap of plane faces, cells, below which both may lie in one cell, whose water then acts as a spring between them.
 const SHARED_CELL: f64 = 1.0;
-/// Exchanges over which velocities are averaged: nearly a period of the oscillations that late loads would drive, 20 steps
-/// for blocks three cells thick.
+/// Exchanges over which velocities are averaged: nearly a period of the oscillations that delayed loads would drive, 20
+/// steps for blocks three cells thick.
 const DELAY_MEMORY: f64 = 16.0;
 
-/// What the loads of a lattice lack in shared cells because blocks feel them late. Pressure answers to a constant velocity of the
-/// blocks in the middle of an exchange; the loads are those before a step, so half a step later, and half a step
-/// more where the mean of two is taken.
+/// The delay of the loads in shared cells. Pressure corresponds to the constant velocity of the blocks in the middle of an
+/// exchange. Loads are evaluated before a step, which adds half a step of delay, and the mean of two loads adds another
+/// half.
 fn load_delay(scene: &Scene, units: &Units) -> LoadDelay {
     let interval = f64::from(scene.coupling.interval);
     let steps = 0.5 * interval + if scene.coupling.average { 1.0 } else { 0.5 };
@@ -362,7 +362,7 @@ fn load_delay(scene: &Scene, units: &Units) -> LoadDelay {
     }
 }
 
-/// The film in unresolved gaps; `None` without `coupling.lubrication`.
+/// The lubrication film in unresolved gaps; `None` without `coupling.lubrication`.
 fn lubrication_film(scene: &Scene, units: &Units, blocks: &[Block]) -> Option<Film> {
     let faces = scene.boundaries.iter();
     let free_slip = faces.filter(|(_, boundary)| matches!(boundary, Boundary::FreeSlip));

@@ -1,5 +1,5 @@
-//! The exchange between blocks and a fluid: poses in, loads out; lengths of exchanges, and of steps of blocks without a
-//! fluid.
+//! The exchange between blocks and a fluid: poses in, loads out; the intervals between exchanges, and the time step of
+//! blocks without a fluid.
 
 use super::{FluidLoad, Rock};
 use crate::{
@@ -17,13 +17,13 @@ use std::{f64::consts::PI, future::Future};
 pub enum ExchangeInterval {
     /// No block can move: one exchange at the end, for output.
     Static,
-    /// All blocks that can move are asleep: an exchange after so many steps of the fluid.
+    /// All blocks that can move are asleep: an exchange after this number of fluid steps.
     Asleep(u64),
     /// An exchange after `steps` steps of the fluid, and the one after that at most `next` steps later.
     Awake {
-        /// Until the exchange.
+        /// Fluid steps until the exchange.
         steps: u64,
-        /// From there to the next one: more than `steps` where all blocks may fall asleep.
+        /// Fluid steps from there to the following exchange: more than `steps` if all blocks may fall asleep.
         next: u64,
     },
 }
@@ -34,7 +34,7 @@ pub trait Fluid {
     fn time(&self) -> f64;
 
     /// Advances the fluid to the next exchange, but not beyond the time `end` (s). The blocks start at `poses` and move
-    /// with the velocities of these. Returns the mean load on each block since the previous exchange, or `None` if the
+    /// with the velocities of these poses. Returns the mean load on each block since the previous exchange, or `None` if the
     /// advance ended before the next one.
     fn advance(
         &mut self,
@@ -47,7 +47,7 @@ pub trait Fluid {
 /// Advances fluid and rock together until the time `end` (s).
 ///
 /// # Errors
-/// Those of the fluid, and of [`Rock::exchange`].
+/// Returns the errors of the fluid and of [`Rock::exchange`].
 pub async fn run(fluid: &mut impl Fluid, rock: &mut Rock, end: f64) -> Result<()> {
     while fluid.time() < end {
         let poses = rock.poses();
@@ -103,14 +103,14 @@ pub fn longest_exchange(rock: &Rock, impedance: f64) -> f64 {
     .fold(f64::INFINITY, f64::min)
 }
 
-/// Sub-steps of a step where the scene gives no time step: a step keeps its length when contacts
-/// stiffen and sub-steps get shorter, and a whole number of them then wastes at most a tenth.
+/// Sub-steps per step if the scene gives no time step: the length of the step does not change when contacts stiffen and
+/// sub-steps get shorter, and rounding to a whole number of sub-steps then wastes at most a tenth.
 const SUB_STEPS: f64 = 10.0;
-/// Limit of the sub-steps in a step: at a thousandth of a second each, as large scenes take, a step then lasts a quarter
-/// of an hour.
+/// Largest number of sub-steps per step: at a millisecond each, as in large scenes, such a step runs for a quarter of an
+/// hour.
 const MAX_SUB_STEPS: f64 = 1e6;
 
-/// Length of a step of a scene of `blocks` without a fluid, s.
+/// Time step of a scene of `blocks` without a fluid, s.
 ///
 /// # Errors
 /// [`Error::Scene`] if neither the scene nor a contact determines it, or if a step has too many sub-steps.
@@ -118,7 +118,7 @@ pub(crate) fn rock_step(scene: &Scene, blocks: &Blocks) -> Result<f64> {
     if !blocks.time_step().is_finite() {
         return Err(Error::scene(
             "rock.time_step",
-            "no block is free, so that no contact says how long a step may be; give time_step \
+            "no block is free, so that no contact determines the time step; give time_step \
              in s",
         ));
     }
@@ -133,10 +133,10 @@ pub(crate) fn rock_step(scene: &Scene, blocks: &Blocks) -> Result<f64> {
     Ok(time_step)
 }
 
-/// Refuses blocks whose contacts want more than [`MAX_SUB_STEPS`] sub-steps in a step of `time_step` (s).
+/// Rejects blocks whose contacts need more than [`MAX_SUB_STEPS`] sub-steps in a step of `time_step` (s).
 ///
 /// # Errors
-/// [`Error::Scene`] with what would make them longer.
+/// [`Error::Scene`] with the changes that would lengthen the sub-steps.
 pub(crate) fn check_substep_count(time_step: f64, blocks: &Blocks) -> Result<()> {
     bound(time_step, blocks.time_step())
 }
@@ -149,8 +149,8 @@ fn bound(time_step: f64, sub_step: f64) -> Result<()> {
     Err(Error::scene(
         "materials",
         format!(
-            "contacts want sub-steps of {sub_step:.3e} s, {steps:.3e} of them in a step of {time_step:.3e} s, and a run takes at \
-             most {MAX_SUB_STEPS:e}; use a normal_stiffness smaller by {:.1e}, heavier blocks, or a shorter time_step",
+            "contacts need sub-steps of {sub_step:.3e} s, {steps:.3e} of them in a step of {time_step:.3e} s, and the limit \
+             is {MAX_SUB_STEPS:e}; use a normal_stiffness smaller by {:.1e}, heavier blocks, or a shorter time_step",
             (steps / MAX_SUB_STEPS).powi(2)
         ),
     ))

@@ -7,28 +7,28 @@ use crate::{
 };
 use glam::DVec3;
 
-/// Load of the fluid on a block, the mean since the previous exchange.
+/// Mean load of the fluid on a block since the previous exchange.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct FluidLoad {
-    /// Load of the flow; zero at rest where buoyancy is separate.
+    /// Load of the flow; zero at rest if buoyancy is separate.
     pub flow: Load,
-    /// Buoyancy, −ρ g Σε, of a fluid whose pressure is counted from the hydrostatic one.
+    /// Buoyancy, −ρ g Σε, of a fluid whose pressure is relative to the hydrostatic pressure.
     pub buoyancy: Load,
 }
 
 /// The fields that act on fluid and rock everywhere.
 ///
 /// The exchange in a partially saturated cell is weighted by B, and the body force b on the fluid by 1 − B, so
-/// that ρ b ΣB is missing from the load. Where the rock's gravity g is not all in b, pressure is counted from the
-/// hydrostatic one, which adds the buoyancy −ρ g Σε (Archimedes). Together: ρ b ΣB − ρ g Σε. With b = g this is
+/// that ρ b ΣB is missing from the load. If b does not contain all of the rock's gravity g, pressure is relative to the
+/// hydrostatic pressure, which adds the buoyancy −ρ g Σε (Archimedes). Together: ρ b ΣB − ρ g Σε. With b = g this is
 /// −ρ g Σ(ε − B), and the total load at rest is the buoyancy. With g = 0 the body force stands for a
 /// pressure gradient. With b = 0 the water is weightless and contributes only its buoyancy.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ambient {
     /// Density of the fluid ρ, kg/m³.
     pub density: f64,
-    /// Body force on the fluid per mass b, m/s², a formula of the place.
+    /// Body force per mass on the fluid b, m/s², a formula of the position.
     pub acceleration: [Formula; 3],
     /// Gravity of the rock g, m/s².
     pub gravity: DVec3,
@@ -46,7 +46,7 @@ impl Ambient {
         )
     }
 
-    /// The body force on the fluid at a place, ρ b, N/m³.
+    /// The body force on the fluid at a position, ρ b, N/m³.
     pub fn body_force(&self, place: DVec3) -> DVec3 {
         let place = self
             .period
@@ -75,7 +75,7 @@ fn load_of_density(force: DVec3, volume: f64, moment: DVec3) -> Load {
     }
 }
 
-/// The sum of two loads on a block; the volumes are those of the first.
+/// The sum of two loads on a block, with the volumes of the first.
 pub fn add_loads(a: Load, b: Load) -> Load {
     Load {
         force: a.force + b.force,
@@ -93,17 +93,17 @@ pub fn add_loads(a: Load, b: Load) -> Load {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct LoadAverage {
-    /// The last loads, with their step.
+    /// The last loads and their step.
     pub(super) last: Option<(u64, Vec<Load>)>,
     /// Sum of forces and moments, with the volumes of the last step.
     pub(super) sum: Vec<Load>,
-    /// Steps in it.
+    /// Number of steps in the sum.
     pub(super) steps: u64,
 }
 
 impl LoadAverage {
-    /// Adds the loads of a step, counted from 1. With `average` it adds the mean with the loads of the previous step, which
-    /// are zero before the first step. If these are unknown, it only stores the loads for the next step.
+    /// Adds the loads of a step, counted from 1. With `average` it adds their mean with the loads of the previous step, which
+    /// are zero before the first step; if the previous loads are unknown, it only stores the loads for the next step.
     pub fn add(&mut self, step: u64, loads: Vec<Load>, average: bool) {
         let before = match self.last.take() {
             _ if !average => Some(loads.clone()),
@@ -126,12 +126,12 @@ impl LoadAverage {
         self.last = Some((step, loads));
     }
 
-    /// Keeps the loads of a step for the mean with those of the next one.
+    /// Stores the loads of a step for the mean with the loads of the next step.
     pub fn store(&mut self, step: u64, loads: Vec<Load>) {
         self.last = Some((step, loads));
     }
 
-    /// The mean since the last call, and starts a new one; the last loads if no mean has been added.
+    /// Returns the mean since the last call and starts a new one; returns the last loads if no mean has been added.
     pub fn take(&mut self) -> Option<Vec<Load>> {
         if self.steps == 0 {
             return self.last.as_ref().map(|(_, loads)| loads.clone());
@@ -174,7 +174,7 @@ mod tests {
     fn an_oscillation_of_two_steps_cancels_and_impulse_is_conserved() {
         let mut average = LoadAverage::default();
         assert_eq!(average.take(), None);
-        // Half of each load is counted with the next one.
+        // Half of each load counts in the next step.
         average.add(1, load(6.0), true);
         assert_eq!(mean(&mut average), 3.0);
         for (step, x) in [(2, -4.0), (3, 6.0), (4, -4.0)] {

@@ -13,16 +13,16 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Gap, cells, below which a gap is closed and holds no water: the overlap of contacts and the rounding of scenes are of
-/// this size.
+/// Width, cells, below which a gap is closed and holds no water: of the size of contact overlaps and of the rounding of
+/// scenes.
 const CLOSED_GAP: f64 = 1e-3;
 
-/// Two blocks that are close to each other.
+/// The gap between two neighbouring blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
     /// The blocks, the first one in the fluid.
     pub blocks: [usize; 2],
-    /// Distance between their nearest faces and corners, m; a lower bound for two crossing edges. Negative where they
+    /// Distance between their nearest faces and corners, m; a lower bound for two crossing edges. Negative if they
     /// overlap.
     pub width: f64,
 }
@@ -60,7 +60,7 @@ pub(crate) async fn gaps(
     let grown = |(item, &block): (Aabb, &usize)| Aabb {
         min: item.min.map(|x| x - 0.5 * cell),
         max: item.max.map(|x| x + 0.5 * cell),
-        // Solids and walls form one group: gaps between them do not count.
+        // Solids and walls form one group: gaps between them are ignored.
         group: block.min(in_fluid) as u32,
     };
     let items: Vec<Aabb> = blocks.aabbs().into_iter().zip(&owners).map(grown).collect();
@@ -186,7 +186,7 @@ mod tests {
             at("second", 1.03),
             at("far", 2.23),
             Block::new("sphere", sphere, DVec3::new(0.0, 0.0, 0.8)),
-            // Two solids: the gap between them does not count.
+            // Two solids: the gap between them is ignored.
             at("wall", -1.0).fixed(),
             at("other wall", -2.01).fixed(),
         ];

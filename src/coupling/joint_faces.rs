@@ -63,7 +63,7 @@ fn part_faces_in_joints(part: &Part, pose: &Pose, neighbours: &[Placed], cell: f
 /// A part of a neighbouring block.
 #[derive(Clone, Debug)]
 pub(super) struct NeighbourPart {
-    /// Number of its block.
+    /// Index of its block.
     pub block: usize,
     /// Periodic offset of this image, m.
     pub offset: DVec3,
@@ -77,26 +77,26 @@ pub(super) struct Poses<'a> {
     pub period: Option<Period>,
 }
 
-/// Blocks in cells of space, so that those near one are found without a look at all of them.
+/// A uniform grid of blocks, which finds the neighbours of a block without visiting all blocks.
 #[derive(Debug)]
 pub(super) struct NearBlocks<'a> {
     poses: Poses<'a>,
-    /// m.
+    /// Edges of a cell, m.
     cell: DVec3,
-    /// Cells along axes that repeat.
+    /// Number of cells along periodic axes.
     count: [Option<i64>; 3],
     blocks: HashMap<[i64; 3], Vec<usize>>,
-    /// Those that reach farther than a cell.
+    /// Whether each block is too large for a cell.
     large: Vec<bool>,
 }
 
 impl<'a> NearBlocks<'a> {
-    /// Of blocks at `poses` with radii (m) of which those within `distance` (m) are wanted.
+    /// A grid of blocks at `poses` with the radii `radius` (m), for searches within `distance` (m).
     pub fn new(radius: impl Fn(usize) -> f64, poses: Poses<'a>, distance: f64) -> Self {
         let radii: Vec<f64> = (0..poses.poses.len()).map(radius).collect();
         let mut ascending = radii.clone();
         ascending.sort_by(f64::total_cmp);
-        // A pile has few sizes, and walls are few.
+        // Assumes that most blocks are of similar size and that walls are few.
         let usual = 2.0 * ascending.get(radii.len() / 2).copied().unwrap_or_default();
         let least = 2.0 * usual + distance;
         let count = [0, 1, 2].map(|axis| {
@@ -137,7 +137,7 @@ impl<'a> NearBlocks<'a> {
         self.count[axis].map_or(at, |count| at.rem_euclid(count))
     }
 
-    /// All that may be within the distance of a block, itself among them, in ascending order.
+    /// All blocks that may lie within the search distance of a block, including itself, in ascending order.
     pub fn near(&self, block: usize) -> Vec<usize> {
         if self.large[block] {
             return (0..self.large.len()).collect();
@@ -156,7 +156,7 @@ impl<'a> NearBlocks<'a> {
 }
 
 /// The parts of the blocks, solids and walls `others` that may lie within `distance` (m) of a block, in all periodic images,
-/// and those of its own images.
+/// and the parts of its own images.
 pub(super) fn neighbour_parts<'a>(
     shape: impl Fn(usize) -> &'a Shape,
     Poses { poses, period }: Poses<'_>,
@@ -197,8 +197,8 @@ pub(super) fn neighbour_parts<'a>(
     found
 }
 
-/// The section of a part over a plane polygon, projected onto it, and its area (m²): at the one of the `heights` (m) over
-/// the polygon where it is largest.
+/// The section of a part over a plane polygon, projected onto the polygon, and its area (m²), at the one of the `heights`
+/// (m) over the polygon at which the area is largest.
 pub(super) fn covered_polygon(
     polygon: &[DVec3],
     normal: DVec3,
@@ -273,7 +273,7 @@ mod tests {
     use crate::geometry::Polyhedron;
     use glam::{DQuat, DVec3};
 
-    /// Spheres of two sizes and a large one, in a box that may repeat.
+    /// Spheres of two sizes and a large one, in a box with or without periodic axes.
     #[test]
     fn the_parts_near_a_block_are_those_of_a_look_at_all_blocks() {
         let sizes = [0.2, 0.3, 5.0].map(|radius| Shape::sphere(radius).unwrap());
@@ -283,7 +283,7 @@ mod tests {
         };
         let poses: Vec<Pose> = (0..400)
             .map(|n| {
-                // Irrational steps spread evenly.
+                // Multiples of irrational numbers are evenly distributed.
                 let at = DVec3::new(0.7548, 0.5698, 0.3172) * f64::from(n);
                 let centre = (at - at.floor()) * DVec3::new(9.0, 7.0, 8.0) - DVec3::splat(2.0);
                 Pose::rigid(centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)

@@ -1,4 +1,4 @@
-//! The rims of the closed joints of a block, and the pressure field in the joints, fitted to that at their rims.
+//! The rims of the closed joints of a block, and the pressure field in the joints, fitted to the pressure at their rims.
 
 use super::{joint_faces::NeighbourPart, kernel_deficit::KernelDeficit};
 use crate::{geometry::outer, rock::contact::Placed};
@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 const SAMPLE_DISTANCE: f64 = 1.0;
 /// Clearance to rock that a sample needs, spacings; without it the joint continues.
 const MIN_CLEARANCE: f64 = 0.45;
-/// Offsets of candidate samples along the normal of the face, spacings: where rock continues above or below the joint, only
+/// Offsets of candidate samples along the normal of the face, spacings: if rock continues above or below the joint, only
 /// one side has clearance.
 const NORMAL_OFFSETS: [f64; 3] = [0.0, -0.5, 0.5];
 /// Distances to both sides at which rock is probed, spacings: between two sides less than two spacings apart the joint
@@ -38,12 +38,12 @@ pub(super) struct RimEdge {
     pub loss: DVec3,
 }
 
-/// What [`find_rim`] needs besides the joint.
+/// Parameters of [`find_rim`] other than the joint.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RimParams<'a> {
-    /// m.
+    /// Particle spacing, m.
     pub spacing: f64,
-    /// In a plane scene: y of the particles, m. All samples lie there.
+    /// In a plane scene: y of the particles and of all samples, m.
     pub row: Option<f64>,
     pub deficit: &'a KernelDeficit,
 }
@@ -68,7 +68,7 @@ pub(super) fn find_rim<'a>(
         all.flat_map(|(n, patch)| edges(patch, normal).into_iter().map(move |edge| (n, edge)));
     for (patch, [from, edge, out]) in all {
         let length = edge.length();
-        // Slivers where corners of blocks meet are no rim, and plane scenes have no ends along y.
+        // Slivers at the corners of blocks are not rims, and plane scenes have no ends along y.
         if length < 0.25 * spacing || row.is_some() && out.y.abs() > 0.5 {
             continue;
         }
@@ -141,7 +141,7 @@ fn edges(polygon: &[DVec3], normal: DVec3) -> Vec<[DVec3; 3]> {
     (0..polygon.len()).map(edge).collect()
 }
 
-/// Whether a convex polygon contains a place in its plane.
+/// Whether a convex polygon contains a point in its plane.
 fn contains(polygon: &[DVec3], normal: DVec3, place: DVec3) -> bool {
     let mut edges = edges(polygon, normal).into_iter();
     !polygon.is_empty() && edges.all(|[from, _, out]| out.dot(place - from) <= 0.0)
@@ -157,27 +157,27 @@ fn distance(part: &Placed, x: DVec3) -> f64 {
     heights.fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// The pressure of the water at a place on the rim of a joint.
+/// The pressure of the water at a point on the rim of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct RimSample {
-    /// m.
+    /// Position, m.
     pub place: DVec3,
-    /// Length of rim that it represents, m.
+    /// Length of rim that the sample represents, m.
     pub length: f64,
-    /// Pa; 0 where it is dry.
+    /// Pressure, Pa; 0 if the rim is dry.
     pub pressure: f64,
 }
 
-/// A linear pressure field, fitted to the rims of joints by least squares. Dry rims count where water at rest would reach
-/// them. In directions without samples, as across a joint that is open on one side only, the gradient is that of water at
-/// rest. The head is clamped to the range of the rims.
+/// A linear pressure field, fitted to the rims of joints by least squares. Dry rims enter the fit if water at rest would
+/// reach them. In directions without samples, as across a joint that is open on one side only, the gradient is hydrostatic.
+/// The head is clamped to the range of the rims.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct RimPressure {
     /// Centroid of the rims, m.
     pub place: DVec3,
     /// Pressure there, Pa.
     pub pressure: f64,
-    /// Pressure gradient relative to that of water at rest, Pa/m.
+    /// Pressure gradient less the hydrostatic gradient, Pa/m.
     pub slope: DVec3,
     /// ρ g, Pa/m.
     pub weight: DVec3,
@@ -279,7 +279,7 @@ pub(super) struct Contiguity {
 }
 
 impl Contiguity {
-    /// Of a block and a part of a neighbour.
+    /// The contiguity of a block and a part of a neighbour.
     pub fn of(block: usize, part: &NeighbourPart) -> Self {
         Self {
             block,
@@ -289,8 +289,8 @@ impl Contiguity {
     }
 }
 
-/// Propagates the fields of blocks to those without one that `may_have` one. Inside a jointed mass all sides of a block are
-/// joints, and their water is connected with that of the neighbours: a block takes the mean of the fields of its
+/// Propagates the fields of blocks to blocks without one that `may_have` one. Inside a jointed mass all sides of a block are
+/// joints, and their water is connected with the joints of the neighbours: a block takes the mean of the fields of its
 /// neighbours, and this repeats from block to block.
 pub(super) fn propagate<T: LinearField>(
     known: &[Option<T>],

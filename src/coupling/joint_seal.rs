@@ -16,21 +16,21 @@ use crate::{
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Height at which a block in contact is found that is too thin for the heights of [`KernelDeficit`], spacings.
+/// Height, spacings, that finds blocks in contact too thin for the heights of [`KernelDeficit`].
 const THIN_BLOCK_HEIGHT: f64 = 0.25;
 
 /// Adds the load of the water in joints to blocks in SPH water. Where blocks are closer than the support of the kernel
 /// function, the water between them exerts only a part of its pressure, and none in contact: [`KernelDeficit`] is the
 /// missing part. The joint has the pressure of its rim: between two levels it falls linearly from one to the other, as dam
 /// engineers assume for uplift. The field of a joint is the mean of the [`RimPressure`]s of its two blocks; blocks without
-/// a rim take those of their neighbours.
+/// a rim take the fields of their neighbours.
 #[derive(Debug)]
 pub(crate) struct JointSeal {
     shapes: Vec<Arc<Shape>>,
     /// Blocks whose loads are requested.
     loaded: Vec<bool>,
     period: Option<Period>,
-    /// m.
+    /// Particle spacing, m.
     spacing: f64,
     deficit: KernelDeficit,
     /// ρ g, Pa/m.
@@ -41,7 +41,7 @@ pub(crate) struct JointSeal {
     domain: [DVec3; 2],
 }
 
-/// The closed joints of blocks at one time.
+/// The closed joints of all blocks at one time.
 #[derive(Debug, Default)]
 pub(crate) struct SealedJoints {
     joints: Vec<Joint>,
@@ -63,27 +63,27 @@ struct Joint {
 #[derive(Debug)]
 struct EdgeLoss {
     between: Contiguity,
-    /// m.
+    /// Midpoint, m.
     place: DVec3,
     /// Force on the block per pressure at `place`, m².
     loss: DVec3,
 }
 
-/// The parts over a face: the largest patch that each of them closes, and the mean closed fraction of that patch.
+/// A face and the parts over it: the largest patch that each part closes, and the mean closed fraction of that patch.
 struct ClosedFace {
     patches: Vec<Vec<DVec3>>,
     fractions: Vec<f64>,
 }
 
 impl JointSeal {
-    /// For blocks of these shapes in the water of `setup`; `requested` marks the blocks whose loads are needed.
+    /// A seal for blocks of these shapes in the water of `setup`; `requested` marks the blocks whose loads are needed.
     pub fn new(
         shapes: Vec<Arc<Shape>>,
         period: Option<Period>,
         setup: &Setup,
         requested: &[bool],
     ) -> Self {
-        // Penalty forces of the other schemes act in joints too.
+        // In the other schemes, penalty forces act in joints too.
         let has_boundary_particles = setup.scheme == Scheme::Delta;
         Self {
             shapes,
@@ -318,7 +318,7 @@ fn domain_corner(setup: &Setup, end: usize) -> DVec3 {
     }))
 }
 
-/// Those of `parts` that may lie within `max_height` (m) over a polygon.
+/// The `parts` that may lie within `max_height` (m) over a polygon.
 fn parts_over<'a>(
     polygon: &[DVec3],
     normal: DVec3,

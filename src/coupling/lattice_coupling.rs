@@ -1,4 +1,4 @@
-//! Blocks coupled to a lattice: their cells in it, and the loads that it returns.
+//! Blocks coupled to a lattice: their cells, and the loads that the lattice returns.
 
 use super::{
     Ambient, Coupled, ExchangeInterval, FluidLoad, Gap, LoadAverage, coupled::BlockAtInlet,
@@ -28,13 +28,13 @@ pub(crate) struct LatticeCoupling {
     pub(super) cells: SolidCells,
     pub(super) load_readback: AsyncReadback,
     pub(super) face_readback: AsyncReadback,
-    /// Of the blocks in the fluid; empty before the first exchange.
+    /// Loads on the faces of each block in the fluid; empty before the first exchange.
     pub(super) face_loads: Vec<Vec<FaceLoad>>,
     pub(super) ambient: Ambient,
     pub(super) load_average: LoadAverage,
-    /// Whether each load is averaged with that of the step before.
+    /// Whether each load is averaged with the load of the previous step.
     average: bool,
-    /// Number of blocks in the fluid, the first ones.
+    /// Number of blocks in the fluid; they come first in the list.
     pub(super) in_fluid: usize,
     /// Poses of all blocks for which the cells have been computed.
     pub(super) placed: Option<Vec<Pose>>,
@@ -79,12 +79,12 @@ impl LatticeCoupling {
         })
     }
 
-    /// Gives the fluid another body force per mass, m/s², the same everywhere.
+    /// Sets the body force per mass on the fluid, m/s², to a uniform value.
     pub fn set_acceleration(&mut self, acceleration: [f64; 3]) {
         self.ambient.acceleration = acceleration.map(Formula::from);
     }
 
-    /// Places the blocks at `poses` and records the computation of their cells, unless that is up to date.
+    /// Places the blocks at `poses` and records the computation of their cells, unless they are up to date.
     ///
     /// # Errors
     /// [`Error::Device`] if the device runs out of memory for the cells; the simulation must then be created anew.
@@ -125,7 +125,7 @@ impl LatticeCoupling {
     /// step `last`.
     pub fn exchanges_at(&self, interval: ExchangeInterval, step: u64, last: u64) -> bool {
         match interval {
-            // The loads move nothing; output reads them after the last step.
+            // The loads move no block; output reads them after the last step.
             ExchangeInterval::Static => step == last && self.cells.wrench_count() > 0,
             ExchangeInterval::Asleep(steps) | ExchangeInterval::Awake { steps, .. } => {
                 step.is_multiple_of(steps)
@@ -141,8 +141,8 @@ impl LatticeCoupling {
             || self.average && self.exchanges_at(interval, step + 1, last)
     }
 
-    /// Whether an advance that ends with the step `last` may have no exchange after that of the step `step`. The loads on
-    /// faces move nothing and are needed only then: output reads those of the last exchange.
+    /// Whether the exchange of the step `step` may be the last one of an advance that ends with the step `last`. The loads on
+    /// faces move no block and are needed only then: output reads those of the last exchange.
     pub fn may_be_last(interval: ExchangeInterval, step: u64, last: u64) -> bool {
         match interval {
             ExchangeInterval::Static => true,
@@ -169,8 +169,8 @@ impl LatticeCoupling {
         self.load_readback.record(device, encoder, sums, step);
     }
 
-    /// Waits for the recorded loads and adds them to the average since the last exchange: all of them where a block is `moving`, else
-    /// those of the last step alone, so that what is written does not depend on where the steps before it were divided.
+    /// Waits for the recorded loads and adds them to the average since the last exchange: all of them if a block is `moving`,
+    /// otherwise only those of the last step, so that the output does not depend on how the steps were divided into advances.
     ///
     /// # Errors
     /// If the device is lost.
@@ -223,7 +223,7 @@ impl LatticeCoupling {
         self.face_readback.record(device, encoder, sums, step);
     }
 
-    /// Waits for the recorded loads on faces; they are those at the beginning of the step.
+    /// Waits for the recorded loads on faces, which are the loads at the beginning of the step.
     async fn read_faces(&mut self) -> Result<()> {
         for (_, sums) in self.face_readback.finish().await? {
             let poses = self.placed.iter().flatten();
@@ -252,10 +252,10 @@ impl LatticeCoupling {
         })
     }
 
-    /// Checks that a state is of as many blocks in the fluid.
+    /// Checks that a state has the same number of blocks in the fluid.
     ///
     /// # Errors
-    /// [`Error::Argument`] if not.
+    /// [`Error::Argument`] if it does not.
     pub fn check(&self, state: &CouplingState) -> Result<()> {
         let known = |loads: usize| loads == 0 || loads == self.in_fluid;
         let last = state.load_average.last.as_ref();
@@ -289,7 +289,7 @@ impl LatticeCoupling {
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct CouplingState {
     load_average: LoadAverage,
-    /// Pose of the last tile search of each block in the fluid: the tiles determine the order of summation, and so the
+    /// Pose of each block in the fluid at its last tile search: the tiles determine the order of summation, and thus the
     /// rounding of loads.
     tiled: Vec<Option<Pose>>,
 }
@@ -306,12 +306,12 @@ impl<'a> Coupled<'a> {
     }
 }
 
-/// What the probes of a scene request about a block.
+/// The loads on a block that the probes of a scene request.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ProbeRequest {
     /// Whether a probe follows the block.
     pub load: bool,
-    /// Whether one needs the loads on its faces, for a table of them or for factors of safety.
+    /// Whether a probe needs the loads on its faces, for a table or for factors of safety.
     pub faces: bool,
 }
 
@@ -333,7 +333,7 @@ impl ProbeRequest {
     }
 }
 
-/// The f32 values of some steps on their way to the host. Staging buffers are reused.
+/// f32 values of several steps in transit to the host. Staging buffers are reused.
 #[derive(Debug, Default)]
 pub struct AsyncReadback {
     staging: Vec<wgpu::Buffer>,
@@ -344,12 +344,12 @@ pub struct AsyncReadback {
     bytes: u64,
 }
 
-/// The first `count` f32 of a buffer.
+/// The first `count` f32 values of a buffer, to be copied to the host.
 #[derive(Clone, Copy, Debug)]
 pub struct Copied<'a> {
     /// A buffer with usage `COPY_SRC`.
     pub buffer: &'a wgpu::Buffer,
-    /// Number of f32.
+    /// Number of f32 values.
     pub count: usize,
 }
 

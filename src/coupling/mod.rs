@@ -7,17 +7,18 @@
 //!
 //! Joints that the fluid does not resolve carry uplift. In a lattice, `uplift` fits the pressure in closed joints to the wet
 //! faces at their rims. In SPH water, `joint_seal` does so: `joint_rim` samples the rims, fits the pressure field to
-//! them and propagates it to blocks without a rim, and `kernel_deficit` is the part of the pressure that the particles
-//! miss. `joint_faces` serves both fluids: neighbours over a face, and the area that they cover.
+//! them and propagates it to blocks without a rim, and `kernel_deficit` computes the part of the pressure that the
+//! particles miss. `joint_faces` serves both fluids: neighbours over a face, and the area that they cover.
 //!
-//! For blocks of another program the parts serve alone: [`Ambient`] has the buoyancy of a block and the weight of the fluid that moves
-//! with it, [`AddedMass`] bounds the added mass, and [`InteriorInertia`] gives back the inertia of the fluid inside the block.
+//! Programs with their own blocks can use the parts separately: [`Ambient`] computes the buoyancy of a block and the weight of
+//! the fluid that moves with it, [`AddedMass`] bounds the added mass, and [`InteriorInertia`] returns the inertia of the fluid
+//! inside the block.
 //!
 //! ```
 //! use glam::DVec3;
 //! use riprap::{coupling::Ambient, formula::Formula, geometry::Load};
 //!
-//! // Water at rest in which pressure is counted from the hydrostatic one, and a cubic metre of block in it.
+//! // A block of one cubic metre in water at rest, with pressures relative to the hydrostatic pressure.
 //! let gravity = DVec3::new(0.0, 0.0, -9.81);
 //! let ambient = Ambient {
 //!     density: 1000.0,

@@ -1,4 +1,4 @@
-//! Planes by least squares through pressures on areas.
+//! Least-squares planes through the pressures on areas.
 
 use crate::geometry::outer;
 use glam::{DMat3, DVec3};
@@ -22,7 +22,7 @@ impl AreaMoments {
         second: DMat3::ZERO,
     };
 
-    /// Of a convex plane polygon, r from `centre`.
+    /// The moments of a convex plane polygon, r from `centre`.
     pub fn of(corners: &[DVec3], centre: DVec3) -> Self {
         let mut sum = Self::ZERO;
         for k in 2..corners.len() {
@@ -58,7 +58,7 @@ impl AreaMoments {
         }
     }
 
-    /// Scaled to an area of at most `limit` (m²).
+    /// The moments scaled to an area of at most `limit` (m²).
     pub fn limited(&self, limit: f64) -> Self {
         self.times((limit / self.area.max(f64::MIN_POSITIVE)).min(1.0))
     }
@@ -75,7 +75,7 @@ pub(super) struct PressureSample {
 }
 
 impl PressureSample {
-    /// The sample projected onto a cut line, with its pressure extrapolated to there.
+    /// The sample projected onto a cut line, with its pressure extrapolated to the line.
     pub fn at_cut(self, cut: CutLine, cell: f64) -> Option<Self> {
         let plane = fit(&[self], cell)?;
         let area = self.over.area;
@@ -101,7 +101,7 @@ impl PressureSample {
 /// The line on a face between its open and its closed part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct CutLine {
-    /// A place on it, from the centroid of the block, m.
+    /// A point on the line, from the centroid of the block, m.
     pub place: DVec3,
     /// Unit vector across it, towards the closed part.
     pub along: DVec3,

@@ -18,7 +18,7 @@ use crate::{
 use glam::{DMat3, DVec3};
 use std::{sync::Arc, time::Instant};
 
-/// Exchange intervals between two exchanges while every block is asleep.
+/// Number of exchange intervals between two exchanges while all blocks are asleep.
 const ASLEEP_INTERVALS: u64 = 16;
 /// Change of the load on a sleeping block that does not wake it, as a fraction of its weight: far above the rounding
 /// of sums over cells and the last swirls in still water, far below the load that moves a block.
@@ -27,18 +27,18 @@ const SLEEP_TOLERANCE: f64 = 1e-3;
 /// Parameters of the coupling of blocks to a fluid.
 #[derive(Clone, Copy, Debug)]
 pub struct CouplingParams {
-    /// Step of the fluid, s; also the step of blocks without free ones among them.
+    /// Time step of the fluid, s; also that of the blocks if none of them is free.
     pub time_step: f64,
     /// Blocks are held in all exchanges that begin before this time, s.
     pub hold: f64,
-    /// The fluid inside the blocks; `None` where blocks displace it.
+    /// The fluid inside the blocks; `None` if blocks displace it.
     pub inside: Option<InteriorFluid>,
 }
 
 /// A fluid that also fills the interior of blocks.
 #[derive(Clone, Copy, Debug)]
 pub struct InteriorFluid {
-    /// Density, kg/m³.
+    /// Density of the fluid, kg/m³.
     pub density: f64,
     /// Thickness of the viscous layer that moves with a block between two exchanges, m: at least a cell, or the diffusion
     /// length in that time.
@@ -58,26 +58,26 @@ pub struct Rock {
     inside: Option<InteriorFluid>,
     /// Upper bounds of the added mass of each block.
     added_mass: Vec<AddedMass>,
-    /// Empty without a fluid.
+    /// Load of the fluid on the cells of each block at the last exchange; empty without a fluid.
     pub(super) cell_load: Vec<FluidLoad>,
     external_load: Vec<FluidLoad>,
     pub(super) interior: Vec<InteriorInertia>,
     /// State before an exchange, restored if it fails; kept to reuse its memory.
     backup: (Snapshot, Vec<InteriorInertia>),
     exchanges: u64,
-    /// Time that exchanges took on the host, s, if requested.
+    /// Time of exchanges on the host, s, if requested.
     exchange_time_spent: Option<f64>,
     /// Work of the free and driven blocks on the fluid since the start, J.
     pub(crate) work_on_fluid: f64,
 }
 
 impl Rock {
-    /// The blocks of a scene, as `setup` has them, pushed apart if the scene says so; `params` are those of its fluid, if it
-    /// has one. Pairs are searched on the host without a `device`.
+    /// The blocks of a scene from `setup`, pushed apart if the scene requests it; `params` describe its fluid, if it has one.
+    /// Without a `device`, the broadphase runs on the host.
     ///
     /// # Errors
-    /// Those of [`Blocks`] for an invalid setup; [`crate::Error::Overlaps`] if blocks overlap, or cannot be pushed apart;
-    /// [`crate::Error::TimeStep`] if the step is too long for the contacts at the start.
+    /// Returns the errors of [`Blocks`] for an invalid setup; [`crate::Error::Overlaps`] if blocks overlap, or cannot be
+    /// pushed apart; [`crate::Error::TimeStep`] if the step is too long for the contacts at the start.
     pub async fn new(
         device: Option<(&wgpu::Device, &wgpu::Queue)>,
         scene: &Scene,
@@ -131,7 +131,7 @@ impl Rock {
             .collect()
     }
 
-    /// One of [`Rock::poses`].
+    /// The pose of a block, as in [`Rock::poses`].
     pub(super) fn pose(&self, block: usize) -> Pose {
         let mut pose = self.blocks.pose(block);
         if self.is_held() {
@@ -173,7 +173,7 @@ impl Rock {
     /// Advances the blocks to the time `until` (s) under the mean loads since the previous exchange.
     ///
     /// # Errors
-    /// Those of [`Blocks::advance`]. The blocks then keep their state.
+    /// Returns the errors of [`Blocks::advance`]. The blocks then keep their state.
     pub async fn exchange(&mut self, loads: &[FluidLoad], until: f64) -> Result<()> {
         let start = self.exchange_time_spent.map(|_| Instant::now());
         let moved = self.exchange_loads(loads, until).await;
@@ -222,9 +222,9 @@ impl Rock {
     /// Advances blocks without a fluid to the time `until` (s).
     ///
     /// # Errors
-    /// Those of [`Blocks::advance`]. The blocks then keep their state.
+    /// Returns the errors of [`Blocks::advance`]. The blocks then keep their state.
     pub async fn advance(&mut self, until: f64) -> Result<()> {
-        // A sub-step that fails leaves the blocks where they were: one alone needs no copy of them.
+        // A failed sub-step leaves the blocks unchanged, so that a single one needs no backup.
         let several = self.blocks.steps_to(until) > 1.0;
         if several {
             self.blocks.save(&mut self.backup.0);
@@ -236,7 +236,7 @@ impl Rock {
         moved
     }
 
-    /// Leaves the previous loads on sleeping blocks unless the change exceeds [`SLEEP_TOLERANCE`].
+    /// Keeps the previous loads on sleeping blocks unless the change exceeds [`SLEEP_TOLERANCE`].
     fn keep_sleeping_loads(&self, loads: &mut [Load]) {
         let asleep = self.blocks.asleep().zip(self.blocks.loads());
         for (block, (load, (asleep, [force, torque]))) in loads.iter_mut().zip(asleep).enumerate() {
@@ -252,7 +252,7 @@ impl Rock {
         }
     }
 
-    /// The total load on a block, of the fluid around it and of any inside it, over the last `dt` (s).
+    /// The total load on a block over the last `dt` (s), by the fluid around it and any fluid inside it.
     fn load(&mut self, block: usize, pose: &Pose, dt: f64) -> Load {
         let cell_load = &self.cell_load[block];
         let made = &self.setup.setup.blocks[block];
@@ -314,14 +314,14 @@ impl Rock {
         &self.cell_load
     }
 
-    /// Times the phases of the steps of the blocks from now on.
+    /// Starts timing the phases of the steps of the blocks.
     pub fn time_phases(&mut self) {
         self.blocks.time_phases();
         self.exchange_time_spent.get_or_insert(0.0);
     }
 
-    /// Time that the exchanges timed since [`Rock::time_phases`] took on the host, s, the steps of the blocks in them
-    /// included; zero without a fluid.
+    /// Time of the exchanges since [`Rock::time_phases`] on the host, s, including the steps of the blocks; zero without a
+    /// fluid.
     pub fn exchange_time_spent(&self) -> f64 {
         self.exchange_time_spent.unwrap_or_default()
     }
@@ -354,7 +354,7 @@ impl Rock {
     /// Restores a state of the same blocks: the next steps yield the same bits.
     ///
     /// # Errors
-    /// [`Error::Argument`] if it is of other blocks.
+    /// [`Error::Argument`] if the state belongs to other blocks.
     pub fn restore(&mut self, state: &RockState) -> Result<()> {
         let own = [self.interior.len(), self.cell_load.len()];
         if [state.interior.len(), state.cell_load.len()] != own {
@@ -382,7 +382,7 @@ impl Rock {
 pub struct RockState {
     /// The blocks.
     pub snapshot: Snapshot,
-    /// Of the fluid inside each block; empty without a fluid.
+    /// Inertia of the fluid inside each block; empty without a fluid.
     interior: Vec<InteriorInertia>,
     /// Load on each block in the last exchange; empty without a fluid.
     cell_load: Vec<FluidLoad>,
@@ -395,14 +395,14 @@ fn rotated_inertia(pose: &Pose, inertia: DMat3) -> DMat3 {
     pose.deformation * inertia * pose.deformation.transpose()
 }
 
-/// Sweeps over all pairs in which blocks that overlap are pushed apart; each sweep settles a layer of
-/// a pile, so this is enough for any that a scene lays by hand.
+/// Largest number of sweeps over all pairs that push overlapping blocks apart; each sweep settles a layer of a pile, so this
+/// is enough for any pile that a scene defines by hand.
 const SWEEPS: usize = 1000;
 
 /// The broadphase of the blocks of a scene, on `device` if there is one and the scene permits it.
 ///
 /// # Errors
-/// [`Error::Scene`] if the scene wants a device and there is none.
+/// [`Error::Scene`] if the scene requires a device and there is none.
 pub(super) fn broadphase(
     device: Option<(&wgpu::Device, &wgpu::Queue)>,
     scene: &Scene,
@@ -418,7 +418,7 @@ pub(super) fn broadphase(
             broadphase
         }
         (None, Search::Device) => {
-            let message = "pairs are to be searched on a device, and none was given; give one, or use broadphase = \"host\"";
+            let message = "the broadphase requires a device, and none was given; give one, or use broadphase = \"host\"";
             return Err(Error::scene("rock.broadphase", message));
         }
         (_, Search::Host) | (None, Search::Auto) => AutoBroadphase::on_host(),
@@ -426,8 +426,8 @@ pub(super) fn broadphase(
     Ok(broadphase)
 }
 
-/// The blocks of a scene at the time 0, pushed apart if it says so. They take a sub-step and go back, so
-/// that overlaps and a step that is too long show before the run.
+/// The blocks of a scene at the time 0, pushed apart if the scene requests it. A trial sub-step, which is then undone,
+/// detects overlaps and a time step that is too long before the run.
 ///
 /// # Errors
 /// [`Error::Overlaps`] if blocks overlap, or cannot be pushed apart; [`Error::TimeStep`] if the step is too long for the

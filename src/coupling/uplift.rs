@@ -31,7 +31,7 @@ const CLOSED_HEIGHTS: [f64; 3] = [0.0, 0.25, 1.0];
 /// Fraction of a face that may lie outside the domain, or be dry without a joint: the rounding of contacts and of counts
 /// of cells.
 const AREA_TOLERANCE: f64 = 0.1;
-/// Smallest closed area, as a fraction of that of the face.
+/// Smallest closed area, as a fraction of the area of the face.
 const MIN_FRACTION: f64 = 0.01;
 
 /// A face with its closed and its open area.
@@ -47,9 +47,9 @@ struct JointFace<'a> {
 /// The surroundings of a block.
 #[derive(Clone, Copy, Debug)]
 struct Surroundings<'a> {
-    /// Parts of neighbouring blocks.
+    /// The parts of neighbouring blocks.
     neighbours: &'a [&'a Placed],
-    /// m.
+    /// Edge of a lattice cell, m.
     cell: f64,
     /// Body force on the fluid, N/m³.
     weight: DVec3,
@@ -61,8 +61,8 @@ struct UpliftDiagram<'a> {
 }
 
 impl<'a> UpliftDiagram<'a> {
-    /// From the `loads` on all faces of a block at `pose`. `None` for a block without closed joints, one with spheres, and
-    /// one that sticks out of the domain.
+    /// The diagram from the `loads` on all faces of a block at `pose`. `None` for a block that has no closed joints, contains
+    /// spheres, or extends beyond the domain.
     fn of(
         loads: &'a [FaceLoad],
         shape: &Shape,
@@ -106,7 +106,7 @@ impl<'a> UpliftDiagram<'a> {
             let samples: Vec<PressureSample> = match face.cut() {
                 None if adjacent.len() < 2 => return None,
                 None => adjacent.iter().map(sample).collect(),
-                // The wet part of the face ends at the rim. Of its neighbours only those next to the closed part are at the rim.
+                // The wet part of the face ends at the rim. Of its neighbours, only those next to the closed part are at the rim.
                 Some(cut) => {
                     let at_rim =
                         |other: &&&JointFace<'_>| face.shares_closed_corner(other, cut, centre);
@@ -145,7 +145,7 @@ impl<'a> UpliftDiagram<'a> {
 pub struct JointLoad {
     /// Area without a cell of fluid next to it, m².
     pub area: f64,
-    /// N; without shear.
+    /// Force, N; without shear.
     pub force: DVec3,
     /// Moment about the centroid of the block, N m.
     pub moment: DVec3,
@@ -153,7 +153,7 @@ pub struct JointLoad {
 
 impl Coupled<'_> {
     /// The loads of the water in closed joints on the faces of a block, in the order of [`Coupled::face_loads`]; empty
-    /// where [`Coupled::wrench_with_uplift`] is `None`.
+    /// if [`Coupled::wrench_with_uplift`] is `None`.
     pub fn joint_loads(&self, block: usize) -> Vec<JointLoad> {
         let load = |diagram: UpliftDiagram<'_>| {
             let faces = diagram.faces.iter();
@@ -164,15 +164,15 @@ impl Coupled<'_> {
 
     /// Force (N) and torque about its centroid (N m) of the fluid on a block with closed joints, buoyancy included: the
     /// loads on its wet faces, and in the joints the pressure of their rim, linear between the adjacent faces. `None`
-    /// unless a probe requests the loads on faces, before the first exchange, for a block without closed joints, one with
-    /// spheres, and one that sticks out of the domain.
+    /// unless a probe requests the loads on faces, before the first exchange, and for a block that has no closed joints,
+    /// contains spheres, or extends beyond the domain.
     pub fn wrench_with_uplift(&self, block: usize) -> Option<[DVec3; 2]> {
         let [force, torque] = self.with_uplift_diagram(block, |diagram| diagram.wrench())?;
         let shape = &self.setup().setup.blocks[block].shape;
         let centre = self.blocks().pose(block).centre;
         let weight = self.coupling.ambient.body_force(centre);
         let FluidLoad { buoyancy, .. } = self.cell_load()[block];
-        // As in the load on a block: pressures counted from the hydrostatic one lack the body force on the displaced fluid.
+        // As in the load on a block: relative pressures lack the body force on the displaced fluid.
         let displaced = weight * shape.volume();
         Some([
             force + displaced + buoyancy.force,
@@ -202,7 +202,7 @@ impl Coupled<'_> {
 }
 
 impl<'a> JointFace<'a> {
-    /// `None` where a face sticks out of the domain and is not closed. `siblings` are the other parts of its block.
+    /// `None` if a face extends beyond the domain and is not closed. `siblings` are the other parts of its block.
     fn of(
         load: &'a FaceLoad,
         part: &Part,
@@ -222,7 +222,7 @@ impl<'a> JointFace<'a> {
             });
             each.fold(AreaMoments::ZERO, |sum, one| sum.plus(&one))
         };
-        // Limited where parts overlap, and where a gap is wet after all.
+        // Limited because parts may overlap and a gap may be wet.
         let dry = (whole.area - load.wetted).max(0.0);
         let seams = covered_by(siblings).limited(dry);
         let closed = covered_by(surroundings.neighbours).limited(dry - seams.area);
@@ -284,7 +284,7 @@ impl<'a> JointFace<'a> {
         corners.any(|x| other.corners.iter().any(|y| x.distance(*y) < tolerance))
     }
 
-    /// The pressure on its wet part, r from `centre`, less the hydrostatic one.
+    /// The pressure on its wet part less the hydrostatic pressure, r from `centre`.
     fn sample(&self, centre: DVec3, surroundings: Surroundings<'_>) -> PressureSample {
         let Surroundings { cell, weight, .. } = surroundings;
         let load = self.load;
@@ -322,7 +322,7 @@ impl<'a> JointFace<'a> {
     }
 }
 
-/// The wet ones of `faces` that are one of `closed`, or share an edge with one.
+/// The wet `faces` that are among the `closed` ones or share an edge with one of them.
 fn wet_neighbours<'a>(
     faces: &'a [JointFace<'a>],
     closed: &[&JointFace<'_>],
@@ -335,7 +335,7 @@ fn wet_neighbours<'a>(
     faces.iter().filter(wet).filter(adjacent).collect()
 }
 
-/// The wet faces at the rims of closed joints, or all wet faces if these have none.
+/// The wet faces at the rims of closed joints, or all wet faces if the joints have no rim.
 fn faces_at_rim<'a>(
     faces: &'a [JointFace<'a>],
     closed: &[&JointFace<'_>],

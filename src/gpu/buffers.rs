@@ -1,9 +1,9 @@
 //! Buffers on a device.
 
-/// A buffer with this content, padded with zeros to whole words.
+/// A buffer with the given contents, padded with zeros to whole words.
 ///
-/// On a device that is lost or full the buffer is not valid, as those of `wgpu::Device::create_buffer` are: who uses it
-/// learns of that from an error scope. (`DeviceExt::create_buffer_init` of wgpu panics there.)
+/// On a lost device, or one without free memory, the buffer is invalid, as with `wgpu::Device::create_buffer`, and an error
+/// scope reports it. (`DeviceExt::create_buffer_init` of wgpu panics in this case.)
 pub(crate) fn filled(
     device: &wgpu::Device,
     label: &str,
@@ -28,7 +28,7 @@ pub(crate) fn filled(
     buffer
 }
 
-/// A storage buffer of `bytes`, all zero, that can be written, read back and cleared.
+/// A storage buffer of `bytes` zeros, which can be written, read back and cleared.
 pub(crate) fn zeroed(device: &wgpu::Device, label: &str, bytes: u64) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),

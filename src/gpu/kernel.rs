@@ -1,4 +1,4 @@
-//! A compute kernel on the caller's device: bound by name, recorded into the caller's pass.
+//! A compute kernel on the caller's device, bound by name and recorded into the caller's pass.
 
 use crate::{Error, Result, gpu::link::Linked};
 use std::{borrow::Cow, sync::Arc};
@@ -22,7 +22,7 @@ pub struct Binding {
     pub name: String,
     /// `@binding` number, in group 0.
     pub number: u32,
-    /// How the kernel uses it.
+    /// Binding type: uniform, read-only storage or storage.
     pub kind: wgpu::BufferBindingType,
 }
 
@@ -34,7 +34,7 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// Brings a linked program to the device.
+    /// Creates the shader module of a linked program.
     pub fn new(device: &wgpu::Device, linked: Linked) -> Self {
         Self {
             module: shader_module(device, &linked),
@@ -42,10 +42,10 @@ impl Shader {
         }
     }
 
-    /// Compiles `entry`, as [`Kernel::new`] does.
+    /// Compiles `entry`, like [`Kernel::new`].
     ///
     /// # Errors
-    /// Those of [`Kernel::new`].
+    /// Returns the errors of [`Kernel::new`].
     pub fn kernel(
         &self,
         device: &wgpu::Device,
@@ -55,13 +55,13 @@ impl Shader {
         compile(device, &self.linked, &self.module, entry, constants)
     }
 
-    /// The program.
+    /// The linked program.
     pub fn linked(&self) -> &Linked {
         &self.linked
     }
 }
 
-/// The module as naga has it: wgpu need not parse the text again.
+/// Passes the naga module to wgpu, which therefore does not parse the text again.
 fn shader_module(device: &wgpu::Device, linked: &Linked) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(&linked.file),
@@ -70,13 +70,13 @@ fn shader_module(device: &wgpu::Device, linked: &Linked) -> wgpu::ShaderModule {
 }
 
 impl Kernel {
-    /// Compiles `entry` of a linked program. `constants` sets its WGSL overrides: exactly those that it declares, but
-    /// that one with a default may be left out.
+    /// Compiles `entry` of a linked program. `constants` sets its WGSL overrides. It must contain every override that the
+    /// program declares, except those with a default, and no others.
     ///
     /// # Errors
     /// [`Error::Limit`] if the device allows fewer bindings or smaller workgroups,
     /// [`Error::Shader`] if there is no such entry point, [`Error::Binding`] if a constant is not declared, is missing,
-    /// or has a value that no 32-bit number has.
+    /// or has a value that a 32-bit number cannot represent.
     pub fn new(
         device: &wgpu::Device,
         linked: &Linked,
@@ -92,33 +92,33 @@ impl Kernel {
         &self.entry
     }
 
-    /// The file of the entry point, without folder and ending.
+    /// File name of the entry point, without folder and extension.
     pub fn file(&self) -> &str {
         &self.linked.file
     }
 
-    /// Its slots and the files that fill them.
+    /// The slots of the program and the files that fill them.
     pub fn slots(&self) -> &[(String, String)] {
         &self.slots
     }
 
-    /// Invocations of a workgroup.
+    /// Invocations per workgroup.
     pub fn invocations(&self) -> u32 {
         self.size.iter().product()
     }
 
-    /// The program that it is an entry point of.
+    /// The program that contains the entry point.
     pub fn linked(&self) -> &Linked {
         &self.linked
     }
 
-    /// What must be bound, in the order of the binding numbers.
+    /// Required bindings, in the order of their numbers.
     pub fn bindings(&self) -> &[Binding] {
         &self.bindings
     }
 
-    /// Binds whole buffers by the names that they have in WGSL; names the kernel does not use are
-    /// passed over, so that one list serves all variants of a kernel.
+    /// Binds whole buffers by their WGSL names. Names that the kernel does not use are ignored, so that one list serves all
+    /// variants of a kernel.
     ///
     /// # Errors
     /// [`Error::Binding`] if a buffer is missing.
@@ -150,8 +150,8 @@ impl Kernel {
         }))
     }
 
-    /// Records a dispatch of `groups` workgroups, folded into two dimensions where one does not
-    /// hold them. Kernels count `workgroup_id.x + workgroup_id.y * num_workgroups.x`.
+    /// Records a dispatch of `groups` workgroups, folded into two dimensions if they exceed the limit of one. Kernels compute
+    /// their index as `workgroup_id.x + workgroup_id.y * num_workgroups.x`.
     pub fn record(&self, pass: &mut wgpu::ComputePass<'_>, bind: &wgpu::BindGroup, groups: u32) {
         if groups == 0 {
             return;
@@ -159,7 +159,7 @@ impl Kernel {
         self.record_grid(pass, bind, fold(groups));
     }
 
-    /// Records a dispatch of x × y workgroups, for kernels that count them row by row.
+    /// Records a dispatch of x × y workgroups, for kernels that number them row by row.
     pub fn record_grid(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
@@ -187,14 +187,14 @@ fn compile(
         .count() as u64;
     let limits = device.limits();
     within(
-        "storage buffers a shader stage",
+        "storage buffers per shader stage",
         storage,
         limits.max_storage_buffers_per_shader_stage.into(),
     )?;
-    // wgpu takes a workgroup that is too large without a word.
+    // wgpu does not report a workgroup that is too large.
     let size = workgroup_size(linked, entry);
     within(
-        "invocations a workgroup",
+        "invocations per workgroup",
         size.iter().map(|&n| u64::from(n)).product(),
         limits.max_compute_invocations_per_workgroup.into(),
     )?;
@@ -242,7 +242,7 @@ fn compile(
     })
 }
 
-/// Bytes of the largest storage binding of a device, as far as words of 4 bytes have an index of 32 bits.
+/// Bytes of the largest storage binding of a device, limited so that 32 bits can index its 4-byte words.
 pub fn largest_binding(limits: &wgpu::Limits) -> u64 {
     let bytes = limits.max_storage_buffer_binding_size;
     bytes
@@ -250,10 +250,10 @@ pub fn largest_binding(limits: &wgpu::Limits) -> u64 {
         .min(4 * u64::from(u32::MAX))
 }
 
-/// Workgroups that WebGPU promises in one dimension.
+/// Workgroups per dimension that WebGPU guarantees.
 pub const MAX_GROUPS: u32 = 65_535;
 
-/// The smallest grid x × y of at least `groups` workgroups with both sides in the limit.
+/// The smallest grid x × y of at least `groups` workgroups with both sides within [`MAX_GROUPS`].
 pub fn fold(groups: u32) -> [u32; 2] {
     let y = groups.div_ceil(MAX_GROUPS);
     [groups.div_ceil(y.max(1)), y]
@@ -272,7 +272,7 @@ fn within(name: &str, wants: u64, has: u64) -> Result<()> {
     })
 }
 
-/// Whether `constants` are those that the program declares, each a number of 32 bits.
+/// Checks that `constants` are the constants that the program declares, and that 32 bits can represent their values.
 fn check_constants(linked: &Linked, entry: &str, constants: &[(&str, f64)]) -> Result<()> {
     let refused = |name: &str, message: String| {
         Err(Error::Binding {
@@ -283,11 +283,11 @@ fn check_constants(linked: &Linked, entry: &str, constants: &[(&str, f64)]) -> R
     };
     for (name, value) in constants {
         if !linked.declares(name) {
-            let message = "the kernel declares no such constant; look at the spelling";
+            let message = "the kernel declares no such constant; check the spelling";
             return refused(name, message.into());
         }
         if !(*value as f32).is_finite() {
-            let message = format!("its value is {value}, no number of 32 bits; look at the setup");
+            let message = format!("its value {value} is not a 32-bit number; check the setup");
             return refused(name, message);
         }
     }
@@ -307,7 +307,7 @@ fn check_constants(linked: &Linked, entry: &str, constants: &[(&str, f64)]) -> R
     Ok(())
 }
 
-/// The size of the workgroup of `entry`, in invocations; overrides count as given in the text.
+/// The workgroup size of `entry`, in invocations; overrides have the values given in the text.
 fn workgroup_size(linked: &Linked, entry: &str) -> [u32; 3] {
     let found = linked.module.entry_points.iter().find(|e| e.name == entry);
     found.map_or([1; 3], |e| e.workgroup_size)

@@ -1,9 +1,9 @@
-//! Whether a structure of the host lies in memory as its twin in WGSL does.
+//! Comparison of the memory layout of a host struct with that of its WGSL counterpart.
 
 use crate::{Error, Result};
 
-/// Compares `T` with the structure `name` of a module: its size, and the offsets (bytes) of its
-/// fields by their names in WGSL, in their order.
+/// Compares `T` with the struct `name` of a module: its size, and the offsets (bytes) of its fields, given with their WGSL
+/// names in order.
 ///
 /// ```
 /// use riprap::gpu::{layout, link::Program};
@@ -17,7 +17,7 @@ use crate::{Error, Result};
 /// ```
 ///
 /// # Errors
-/// [`Error::Layout`] with both layouts if they differ, or if there is no such structure.
+/// [`Error::Layout`] with both layouts if they differ, or if there is no such struct.
 pub fn check<T>(module: &naga::Module, name: &str, fields: &[(&str, usize)]) -> Result<()> {
     let wrong = |message| Error::Layout {
         structure: name.into(),

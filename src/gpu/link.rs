@@ -1,9 +1,9 @@
-//! From `.wgsl` files to one shader: names, slots, unrolled loops.
+//! Links `.wgsl` files into one shader: resolves names, fills slots and unrolls loops.
 //!
-//! A file says what it stands on in its head: `// needs lattice, grid, $eddy`. A name is a file
-//! of `kernels/`, `$eddy` is a slot that the [`Program`] fills with one. Each file is taken once,
-//! after what it needs. A loop whose head ends in `// unroll` is written out, its counter replaced
-//! by literals: an indexed `array<f32, 27>` would cost two to three times as much.
+//! The head of a file lists its dependencies: `// needs lattice, grid, $eddy`. A name is a file of `kernels/`; `$eddy` is a
+//! slot that the [`Program`] fills with a file. Each file is included once, after its dependencies. A loop whose head ends in
+//! `// unroll` is unrolled, with its counter replaced by literals: an indexed `array<f32, 27>` would cost two to three times
+//! as much.
 
 use crate::{Error, Result};
 use std::{
@@ -16,7 +16,7 @@ mod unroll;
 
 pub use sources::{SOURCES, source};
 
-/// What to link: a file with an entry point, and the files that fill its slots.
+/// The input of the linker: a file with an entry point, and the files that fill its slots.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Program {
     entry: String,
@@ -25,7 +25,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// The program that starts at `file`, a name without folder and ending.
+    /// The program of the entry file `file`, a name without folder and extension.
     pub fn new(file: &str) -> Self {
         Self {
             entry: file.into(),
@@ -40,7 +40,7 @@ impl Program {
         self
     }
 
-    /// Adds a file that is not in `kernels/`, or replaces one that is.
+    /// Adds a file that is not in `kernels/`, or replaces a file of `kernels/`.
     #[must_use]
     pub fn text(mut self, name: &str, text: impl Into<String>) -> Self {
         self.texts.insert(name.into(), text.into());
@@ -50,7 +50,7 @@ impl Program {
     /// Links, parses and validates.
     ///
     /// # Errors
-    /// [`Error::Shader`] with the file and line of the text as it was written.
+    /// [`Error::Shader`] with the file and line in the source text.
     pub fn link(&self) -> Result<Linked> {
         let mut linked = Linking {
             program: self,
@@ -77,26 +77,26 @@ impl Program {
 /// A linked and validated shader.
 #[derive(Clone, Debug)]
 pub struct Linked {
-    /// The file that it starts at.
+    /// Name of the entry file.
     pub file: String,
-    /// The slots that it has, each with the file that fills it.
+    /// The slots of the program, each with the file that fills it.
     pub slots: BTreeMap<String, String>,
-    /// WGSL, complete.
+    /// The complete WGSL text.
     pub text: String,
-    /// The same, as naga sees it.
+    /// The parsed module.
     pub module: Arc<naga::Module>,
-    /// What naga found out about it.
+    /// The result of naga's validation.
     pub info: Arc<naga::valid::ModuleInfo>,
 }
 
 impl Linked {
-    /// Whether it declares the constant (WGSL override) `name`.
+    /// Whether the program declares the constant (WGSL override) `name`.
     pub fn declares(&self, name: &str) -> bool {
         let mut overrides = self.module.overrides.iter();
         overrides.any(|(_, o)| o.name.as_deref() == Some(name))
     }
 
-    /// The value of a `const` of the kind u32, if the program has one of this name.
+    /// The value of the u32 `const` of this name, if the program has one.
     pub fn constant(&self, name: &str) -> Option<u32> {
         let mut constants = self.module.constants.iter();
         let (_, found) = constants.find(|(_, c)| c.name.as_deref() == Some(name))?;
@@ -106,8 +106,8 @@ impl Linked {
         }
     }
 
-    /// Of the constants of a family of kernels those that this one declares. [`crate::gpu::kernel::Kernel::new`] refuses
-    /// a constant that is declared and not in `family`.
+    /// The constants of a family of kernels that this program declares. [`crate::gpu::kernel::Kernel::new`] rejects the
+    /// program if it declares a constant that is not in `family`.
     pub fn constants_of<'a>(&self, family: &[(&'a str, f64)]) -> Vec<(&'a str, f64)> {
         let declared = family.iter().filter(|(name, _)| self.declares(name));
         declared.copied().collect()
@@ -184,7 +184,7 @@ fn check(text: &str, lines: &[(String, u32)]) -> Result<(naga::Module, naga::val
         .map_err(|e| locate(e.location(text).map(|l| l.line_number), e.message().into()))?;
     let info = naga::valid::Validator::new(
         naga::valid::ValidationFlags::all(),
-        // unpack2x16float and 64-bit words; wgpu checks both against the adapter.
+        // For unpack2x16float and 64-bit words; wgpu checks both against the adapter.
         naga::valid::Capabilities::default()
             | naga::valid::Capabilities::SHADER_FLOAT16_IN_FLOAT32
             | naga::valid::Capabilities::SHADER_INT64,

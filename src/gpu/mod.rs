@@ -1,8 +1,8 @@
-//! Device side of every kernel: linking of WGSL files, pipelines, buffers, readback, timing, and the sorting primitives that
-//! SPH and the broadphase share.
+//! Infrastructure of the compute kernels: linking of WGSL files, pipelines, buffers, readback, timing, and the sorting
+//! primitives that SPH and the broadphase share.
 //!
-//! [`link`] makes one shader from the files that a kernel needs, [`kernel`] makes its pipeline and binds buffers by their names,
-//! [`layout`] compares structs of Rust with those of WGSL, [`readback`] reads buffers, and [`timer`] times passes on the device.
+//! [`link`] creates one shader from the files that a kernel needs, [`kernel`] creates its pipeline and binds buffers by name,
+//! [`layout`] compares Rust structs with WGSL structs, [`readback`] reads buffers, and [`timer`] times passes on the device.
 //!
 //! ```
 //! use riprap::{gpu::{kernel::Kernel, link::Program}, wgpu};

@@ -1,5 +1,5 @@
-//! Large arrays of plain words as one run of little-endian bytes, for `#[serde(with = "plain_bytes")]`: f32 keep their
-//! bits, and gigabytes are not encoded number by number.
+//! Serializes large arrays of plain words as one block of little-endian bytes, for `#[serde(with = "plain_bytes")]`: f32 values
+//! keep their bits, and gigabytes are not encoded number by number.
 
 use bytemuck::{Pod, cast_slice, pod_collect_to_vec};
 use serde::{
@@ -11,7 +11,7 @@ use std::{fmt, marker::PhantomData};
 /// Writes `values`, which consist of words of four bytes.
 ///
 /// # Errors
-/// Those of the serializer.
+/// Returns the errors of the serializer.
 pub fn serialize<T: Pod, S: Serializer>(
     values: &[T],
     serializer: S,
@@ -27,7 +27,7 @@ pub fn serialize<T: Pod, S: Serializer>(
 /// Reads what [`serialize`] wrote.
 ///
 /// # Errors
-/// Those of the deserializer; if the bytes are no whole number of values.
+/// Returns the errors of the deserializer, and an error if the bytes are not a whole number of values.
 pub fn deserialize<'de, T: Pod, D: Deserializer<'de>>(
     deserializer: D,
 ) -> std::result::Result<Vec<T>, D::Error> {
@@ -67,7 +67,7 @@ mod tests {
     fn values_keep_their_bits() {
         let field = Field(vec![1.0, -0.0, f32::from_bits(0x7fc0_1234), 1e-42]);
         let bytes = postcard::to_allocvec(&field).unwrap();
-        // A length, and four bytes each.
+        // The length, and four bytes per value.
         assert_eq!(bytes.len(), 17);
         let read: Field = postcard::from_bytes(&bytes).unwrap();
         let bits = |field: &Field| field.0.iter().map(|x| x.to_bits()).collect::<Vec<_>>();

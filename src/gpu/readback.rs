@@ -1,4 +1,4 @@
-//! Reading buffers back without blocking: a staging buffer that is kept, and a future.
+//! Asynchronous readback of buffers through a reusable staging buffer.
 
 use crate::{Error, Result};
 use std::{
@@ -7,8 +7,8 @@ use std::{
     task::{Poll, Waker},
 };
 
-/// Copies device buffers to the host. Something must poll the device while a read is awaited:
-/// `device.poll` on native systems, the browser by itself.
+/// Copies device buffers to the host. On native systems, the caller must poll the device (`device.poll`) while a read is
+/// pending; browsers poll by themselves.
 #[derive(Debug, Default)]
 pub struct Readback {
     staging: Option<wgpu::Buffer>,
@@ -21,11 +21,11 @@ struct Mapped {
 }
 
 impl Readback {
-    /// The first `count` values of `buffer`, after all that was submitted before.
+    /// Reads the first `count` values of `buffer` after all work submitted before.
     ///
     /// # Errors
-    /// [`Error::Device`] if the buffer has not as many, cannot be copied from, or they are no whole number of words of 4
-    /// bytes; [`Error::DeviceLost`] if the copy cannot be mapped.
+    /// [`Error::Device`] if the buffer has fewer values or lacks `COPY_SRC`, or if the values are not a whole number of 4-byte
+    /// words; [`Error::DeviceLost`] if the copy cannot be mapped.
     pub async fn read<T: bytemuck::Pod>(
         &mut self,
         device: &wgpu::Device,
@@ -51,7 +51,7 @@ impl Readback {
     }
 }
 
-/// Whether the first `bytes` of a buffer can be copied.
+/// Checks that the first `bytes` of a buffer can be copied.
 fn check(buffer: &wgpu::Buffer, bytes: u64) -> Result<()> {
     let message = if bytes > buffer.size() {
         let held = buffer.size();
@@ -59,10 +59,10 @@ fn check(buffer: &wgpu::Buffer, bytes: u64) -> Result<()> {
     } else if !bytes.is_multiple_of(wgpu::COPY_BUFFER_ALIGNMENT) {
         let word = wgpu::COPY_BUFFER_ALIGNMENT;
         format!(
-            "reading back {bytes} bytes, which are no whole number of words of {word}; request more or fewer"
+            "reading back {bytes} bytes, which is not a multiple of {word}; request more or fewer"
         )
     } else if !buffer.usage().contains(wgpu::BufferUsages::COPY_SRC) {
-        "reading back a buffer that was made without `BufferUsages::COPY_SRC`; make it with that"
+        "reading back a buffer that was created without `BufferUsages::COPY_SRC`; create it with this usage"
             .into()
     } else {
         return Ok(());
@@ -80,7 +80,7 @@ pub(crate) fn staging(device: &wgpu::Device, bytes: u64) -> wgpu::Buffer {
     })
 }
 
-/// The first `bytes` of a staging buffer, after all that was submitted before.
+/// Reads the first `bytes` of a staging buffer after all work submitted before.
 pub(crate) async fn map<T: bytemuck::Pod>(
     device: &wgpu::Device,
     staging: &wgpu::Buffer,
@@ -88,8 +88,8 @@ pub(crate) async fn map<T: bytemuck::Pod>(
 ) -> Result<Vec<T>> {
     let mapped = Arc::new(Mutex::new(Mapped::default()));
     let done = Arc::clone(&mapped);
-    // A buffer that was made after the device was lost is none: mapping it is an error of validation, for which wgpu
-    // panics outside of a scope.
+    // A buffer that was created after the loss of the device is invalid. Mapping it is a validation error, on which wgpu
+    // panics outside of an error scope.
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     staging.map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
         if let Ok(mut mapped) = done.lock() {

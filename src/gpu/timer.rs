@@ -1,12 +1,12 @@
-//! GPU time of compute passes, on devices that have timestamps.
+//! GPU time of compute passes, on devices with timestamps.
 
 use crate::{Result, gpu::readback::Readback};
 
-/// Times compute passes by a pair of timestamps each.
+/// Times each compute pass by a pair of timestamps.
 ///
-/// A round is: [`Timer::pass`] for each pass, [`Timer::resolve`] at the end of the encoder, submit,
-/// [`Timer::read`]. Where the device was made without `Features::TIMESTAMP_QUERY` there is no timer,
-/// and [`pass`] gives plain descriptors that cost nothing.
+/// A round consists of [`Timer::pass`] for each pass, [`Timer::resolve`] at the end of the encoder, submission, and
+/// [`Timer::read`]. A device without `Features::TIMESTAMP_QUERY` has no timer; [`pass`] then returns plain descriptors at no
+/// cost.
 #[derive(Debug)]
 pub struct Timer {
     queries: wgpu::QuerySet,
@@ -18,7 +18,7 @@ pub struct Timer {
 }
 
 impl Timer {
-    /// A timer of up to `capacity` passes a round; `None` on a device without timestamps.
+    /// A timer of up to `capacity` passes per round; `None` on a device without timestamps.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, capacity: u32) -> Option<Self> {
         if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return None;
@@ -45,8 +45,7 @@ impl Timer {
         })
     }
 
-    /// The descriptor of a pass that is timed under `label`, or of a plain one once the capacity is
-    /// used up.
+    /// The descriptor of a pass that is timed under `label`; a plain descriptor when the capacity is exhausted.
     pub fn pass<'a>(&'a mut self, label: &'a str) -> wgpu::ComputePassDescriptor<'a> {
         let n = self.labels.len();
         let writes = (n < self.capacity).then(|| {
@@ -63,7 +62,7 @@ impl Timer {
         }
     }
 
-    /// Records the end of a round, behind its passes.
+    /// Records the end of a round, after its passes.
     pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
         let used = 2 * self.labels.len() as u32;
         if used > 0 {
@@ -71,10 +70,10 @@ impl Timer {
         }
     }
 
-    /// Label and seconds of each pass of the round that was submitted last, and begins a new one.
+    /// Returns label and seconds of each pass of the last submitted round, and begins a new round.
     ///
     /// # Errors
-    /// [`crate::Error::DeviceLost`] if the device does not give the timestamps back.
+    /// [`crate::Error::DeviceLost`] if the timestamps cannot be read back.
     pub async fn read(
         &mut self,
         device: &wgpu::Device,
@@ -87,14 +86,14 @@ impl Timer {
             .read(device, queue, &self.resolved, count)
             .await?;
         let seconds = ticks.chunks_exact(2).map(|pair| {
-            // A clock that was reset between the two gives nothing.
+            // Zero if the clock was reset between the two timestamps.
             pair[1].saturating_sub(pair[0]) as f64 * self.seconds_a_tick
         });
         Ok(labels.into_iter().zip(seconds).collect())
     }
 }
 
-/// The descriptor of a pass: timed under `label` if there is a timer.
+/// The descriptor of a pass, timed under `label` if there is a timer.
 pub fn pass<'a>(timer: Option<&'a mut Timer>, label: &'a str) -> wgpu::ComputePassDescriptor<'a> {
     match timer {
         Some(timer) => timer.pass(label),
@@ -105,11 +104,11 @@ pub fn pass<'a>(timer: Option<&'a mut Timer>, label: &'a str) -> wgpu::ComputePa
     }
 }
 
-/// Passes that are timed between two [`Phases::collect`].
+/// Largest number of timed passes between two calls of [`Phases::collect`].
 const PASSES: u32 = 2048;
 
-/// Times of the phases of a step, by name, over a run: those of passes by timestamps, those of the host by its clock. A
-/// device without timestamps gives no times of passes.
+/// Times of the phases of a step, by name, over a run. Passes are timed by timestamps, host phases by the clock of the host.
+/// Without timestamps there are no times of passes.
 #[derive(Debug)]
 pub struct Phases {
     timer: Option<Timer>,
@@ -119,16 +118,16 @@ pub struct Phases {
 /// A phase of a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Phase {
-    /// Its name.
+    /// Name of the phase.
     pub name: String,
-    /// How often it was timed.
+    /// Number of measurements.
     pub count: u64,
-    /// All times together, s.
+    /// Sum of the times, s.
     pub seconds: f64,
 }
 
 impl Phases {
-    /// Nothing is timed yet.
+    /// Phases without any times yet.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         Self {
             timer: Timer::new(device, queue, PASSES),
@@ -136,17 +135,17 @@ impl Phases {
         }
     }
 
-    /// Records the end of the timed passes, behind the last of them.
+    /// Records the end of the timed passes, after the last one.
     pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
         if let Some(timer) = &self.timer {
             timer.resolve(encoder);
         }
     }
 
-    /// Adds the times of the passes that have been submitted since the last call, at most 2048 of them.
+    /// Adds the times of the passes that have been submitted since the last call, at most 2048.
     ///
     /// # Errors
-    /// [`crate::Error::DeviceLost`] if the device does not give the timestamps back.
+    /// [`crate::Error::DeviceLost`] if the timestamps cannot be read back.
     pub async fn collect(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
         let Some(timer) = &mut self.timer else {
             return Ok(());
@@ -178,7 +177,7 @@ impl Phases {
     }
 }
 
-/// Begins a pass: timed as the phase `name` if phases are timed.
+/// Begins a pass, timed as the phase `name` if phases are timed.
 pub fn begin_pass<'e>(
     phases: &mut Option<Phases>,
     encoder: &'e mut wgpu::CommandEncoder,

@@ -170,7 +170,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
             remedy += &format!(", or set `bindings` to at most {free}");
         }
         return Err(Error::Limit {
-            name: "storage buffers a shader stage of this device".into(),
+            name: "storage buffers per shader stage of this device".into(),
             wants: u64::from(least + others),
             has: room.buffers.into(),
             remedy,

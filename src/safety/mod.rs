@@ -1,12 +1,13 @@
-//! Factors of safety of a block that stands: limit equilibrium of what it carries against what its contacts hold.
+//! Factors of safety of a block at rest by limit equilibrium: the ratio of resisting to driving actions.
 //!
-//! A factor is what resists over what drives, from the weight W of the block, the force F of its point loads, of its
-//! acceleration, and of the fluid on it with its buoyancy and all pressure in joints and under its base (in a lattice that of the rim where they are closed, see
-//! [`crate::coupling::Coupled::wrench_with_uplift`]), and the contacts that it has: it stands while all are
-//! above one. A block that is held, or has not moved yet, has no contacts: those faces of it count that lie on others.
-//! Where nothing drives, up to a share of 1e-7, the rounding of loads that a device adds up, a factor is infinite; where there is no contact, none is known: NaN. Contacts
-//! count as planes that press and rub and do not pull; what neighbours push with is not counted, nor is inertia: of a
-//! block in motion the factors say what it would need to stand.
+//! The load consists of the weight W of the block and the force F of its point loads, of its applied acceleration, and of the
+//! fluid on it, including buoyancy and all pressure in joints and under its base (in a lattice, closed joints have the
+//! pressure of their rim, see [`crate::coupling::Coupled::wrench_with_uplift`]). The block is stable while all factors exceed
+//! one. A block that is held or has not moved yet has no contacts; its faces that lie on other blocks replace them. A factor
+//! is infinite if the driving action is less than 1e-7 of the whole load, the rounding of sums on a device, and NaN if there
+//! is no contact. Contacts act as planes that transmit compression and friction but no tension. The forces by which
+//! neighbours push the block are ignored, and so is its inertia: for a block in motion, the factors state what equilibrium
+//! would require.
 //!
 //! With the resultant R = W + F, and planes with unit normals n into the block, areas A, cohesions c and friction
 //! angles φ:
@@ -15,16 +16,16 @@
 //! |---|---|---|
 //! | sliding on one plane | (c A + N′ tan φ)/T, N′ = −R·n, T = \|R + N′ n\| | Wyllie & Mah 2004, chapter 6 |
 //! | sliding on two planes | Σ (c A + N′ tan φ)/T along their line of intersection s, T = R·s, the N′ from R = T s − Σ N′ n | Wyllie & Mah 2004, chapter 7; Goodman & Shi 1985, chapter 9 |
-//! | uplift | W/(F·e), e against gravity | limit equilibrium of a body that floats |
-//! | toppling | ΣM⁺/ΣM⁻ about an edge of the base: moments that hold the block over those that turn it over, of the parts of W along and across n, of the fluid, and of the point loads and the acceleration | Novak et al. 2007, Hydraulic Structures, §3.2; of W alone Wyllie & Mah 2004, chapter 9, Goodman & Bray 1976 |
+//! | uplift | W/(F·e), e against gravity | limit equilibrium of a floating body |
+//! | toppling | ΣM⁺/ΣM⁻ about an edge of the base: stabilising over overturning moments of the components of W along and across n, of the fluid, and of the point loads and the acceleration | Novak et al. 2007, Hydraulic Structures, §3.2; for W alone Wyllie & Mah 2004, chapter 9, Goodman & Bray 1976 |
 //!
-//! The fluid counts with its moment about the edge by its true line of action: thrust and uplift turn the block over, and
-//! uplift, buoyancy included, is not taken from W, as in the practice of gravity dams. Both factors reach one together, where
-//! the resultant goes through the edge; USACE (EM 1110-2-2200, 1995) judges by the place of that resultant alone. The fluid
-//! is one load: water that presses down on a slope is netted with its thrust.
+//! The moment of the fluid about the edge follows from its true line of action: thrust and uplift are overturning, and uplift,
+//! buoyancy included, is not subtracted from W, as in the practice of gravity dams. The factors with and without this
+//! subtraction reach one together, when the resultant passes through the edge; USACE (EM 1110-2-2200, 1995) uses only the
+//! location of that resultant. The fluid is one load: water that presses down on a slope is netted with its thrust.
 //!
-//! Which planes a block slides on follows from the direction of R alone: it may move into no neighbour that it touches (Goodman &
-//! Shi 1985, chapter 9).
+//! The planes on which a block slides follow from the direction of R alone: the block must not move into a neighbour that it
+//! touches (Goodman & Shi 1985, chapter 9).
 //!
 //! ```
 //! use glam::DVec3;
@@ -55,13 +56,13 @@ pub use toppling::{Base, Wrench, toppling};
 
 use glam::DVec3;
 
-/// Share of what acts in all by which nothing drives: rounding of normals, arms and sums.
+/// Fraction of the whole load below which a driving action is zero: rounding of normals, lever arms and sums.
 const ROUNDING: f64 = 1e-7;
-/// Angle by which an open direction may lead into a plane, rad: normals of contacts tilt by 1e-6 to 1e-4, the overlap of
-/// their faces over the width.
+/// Angle by which an admissible direction may point into a plane, rad: contact normals tilt by 1e-6 to 1e-4, the ratio of
+/// overlap to width of their faces.
 const TILT: f64 = 1e-3;
 
-/// What resists over what drives; infinite where nothing drives but rounding of the `whole`.
+/// Resisting over driving action; infinite if the driving action is within the rounding of the `whole` load.
 fn factor(resisting: f64, driving: f64, whole: f64) -> f64 {
     if driving > ROUNDING * whole {
         resisting / driving
@@ -70,8 +71,8 @@ fn factor(resisting: f64, driving: f64, whole: f64) -> f64 {
     }
 }
 
-/// The weight (N, a vector) over the force of fluid and loads against it, buoyancy included (N): infinite where they
-/// do not lift, NaN without weight.
+/// The weight (N, a vector) over the opposing force of fluid and loads (N), buoyancy included: infinite if they do not lift
+/// the block, NaN without weight.
 pub fn uplift(weight: DVec3, lifting: DVec3) -> f64 {
     match weight.try_normalize() {
         Some(down) => factor(weight.length(), -lifting.dot(down), weight.length()),
@@ -83,7 +84,7 @@ pub fn uplift(weight: DVec3, lifting: DVec3) -> f64 {
 mod tests {
     use super::*;
 
-    /// A body under water has the ratio of the densities.
+    /// The factor of a submerged body is the ratio of the densities.
     #[test]
     fn archimedes() {
         let (rock, water, volume) = (2650.0, 1000.0, 0.3);

@@ -1,9 +1,9 @@
-//! Safety against sliding on one plane or on two.
+//! Safety against sliding on one or two planes.
 
 use super::{ROUNDING, TILT, factor};
 use glam::DVec3;
 
-/// A plane on which a block stands, or that holds it.
+/// A plane that supports or restrains a block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Plane {
     /// Unit normal into the block.
@@ -16,29 +16,29 @@ pub struct Plane {
     pub friction_angle: f64,
 }
 
-/// How a block would move.
+/// Mode of failure of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// It has no contacts.
+    /// The block has no contacts.
     Free,
     /// Away from all planes.
     Lifting,
-    /// Along the plane of this number.
+    /// Along the plane with this index.
     OnOne(usize),
-    /// Along the line of intersection of two planes.
+    /// Along the line of intersection of the planes with these indices.
     OnTwo(usize, usize),
-    /// Not at all: nothing drives it in a direction that is open.
+    /// No motion: there is no driving force in an admissible direction.
     Held,
 }
 
 /// Safety of a block against sliding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sliding {
-    /// Resisting over driving force; infinite where it is held, 0 where it lifts off, NaN without contacts.
+    /// Resisting over driving force; infinite if the block is held, 0 if it lifts off, NaN without contacts.
     pub factor: f64,
-    /// How it would move.
+    /// Mode of failure.
     pub mode: Mode,
-    /// Where to, a unit vector; zero where it does not slide.
+    /// Direction of sliding, a unit vector; zero if the block does not slide.
     pub direction: DVec3,
     /// Driving force T, N.
     pub driving: f64,
@@ -55,8 +55,8 @@ impl Sliding {
     }
 }
 
-/// Safety against sliding under the resultant `force` (N) of weight, loads and fluid, contacts left out: the least factor of
-/// those of the directions that are open.
+/// Safety against sliding under the resultant `force` (N) of weight, loads and fluid, without contact forces: the smallest
+/// factor of all admissible directions.
 pub fn sliding(force: DVec3, planes: &[Plane]) -> Sliding {
     if planes.is_empty() {
         return Sliding::none(f64::NAN, Mode::Free);
@@ -75,7 +75,7 @@ pub fn sliding(force: DVec3, planes: &[Plane]) -> Sliding {
     least.unwrap_or(Sliding::none(f64::INFINITY, Mode::Held))
 }
 
-/// Whether the direction `along`, a unit vector, leads into none of the planes but `own`.
+/// Whether the direction `along`, a unit vector, points into none of the planes other than `own`.
 fn is_open(along: DVec3, planes: &[Plane], own: &[usize]) -> bool {
     let others = planes.iter().enumerate().filter(|(n, _)| !own.contains(n));
     others.fold(true, |open, (_, plane)| {
@@ -136,7 +136,7 @@ fn strength(plane: &Plane, normal: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// A plane of this dip and dip direction, degrees; x is east and y north.
+    /// A plane with this dip, dip direction and friction angle, degrees; x is east and y north.
     fn plane(dip: f64, towards: f64, friction: f64) -> Plane {
         let (sin, cos) = dip.to_radians().sin_cos();
         let (east, north) = towards.to_radians().sin_cos();
@@ -171,7 +171,7 @@ mod tests {
         assert!((lifted - (6.0 + friction) / 5.0).abs() < 1e-14);
     }
 
-    /// Two wedges, whose factors Goodman & Shi's vector method gives.
+    /// Two wedges; the reference factors are from the vector method of Goodman & Shi.
     #[test]
     fn wedges() {
         let even = [plane(50.0, 120.0, 30.0), plane(50.0, 240.0, 30.0)];
@@ -198,7 +198,7 @@ mod tests {
         let along = sliding(DVec3::new(5.0, 2.0, -10.0), &[floor, wall]);
         assert_eq!(along.mode, Mode::OnTwo(0, 1));
         assert!((along.factor - 15.0 * tan / 2.0).abs() < 1e-12);
-        // Up the wall once the water carries it.
+        // Sliding up the wall if the water lifts the block.
         let up = sliding(DVec3::new(5.0, 0.0, 1.0), &[floor, wall]);
         assert_eq!((up.mode, up.direction), (Mode::OnOne(1), DVec3::Z));
         assert!((up.factor - 5.0 * tan).abs() < 1e-12);
@@ -206,7 +206,7 @@ mod tests {
         assert_eq!((off.mode, off.factor), (Mode::Lifting, 0.0));
     }
 
-    /// The normals of contacts tilt a little: a lane between walls that converge by as much is open.
+    /// Contact normals tilt slightly: motion between walls that converge by this angle is admissible.
     #[test]
     fn a_lane_between_two_walls_is_open_up_to_the_tilt_of_contacts() {
         let floor = plane(0.0, 0.0, 35.0);

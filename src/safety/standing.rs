@@ -1,4 +1,4 @@
-//! The safety of a block among its neighbours: what it touches, and where no contacts are known the faces that lie on others.
+//! The safety of a block among its neighbours, from its contacts or, if there are none, from its faces that lie on others.
 
 use super::{Base, Plane, Sliding, TILT, Wrench, sliding, toppling, uplift};
 use crate::{
@@ -8,31 +8,31 @@ use crate::{
 };
 use glam::DVec3;
 
-/// Cosine of the angle between the normals of contacts of one plane, 5°: contacts of plane faces differ by less.
+/// Cosine of the largest angle between contact normals of one plane, 5°: the contacts of a plane face differ by less.
 const SAME: f64 = 0.996;
 
-/// How safely a block stands.
+/// Factors of safety of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Standing {
-    /// Against sliding.
+    /// Safety against sliding.
     pub sliding: Sliding,
-    /// Against uplift: see [`uplift`].
+    /// Safety against uplift: see [`uplift`].
     pub uplift: f64,
-    /// Against toppling over the edges of the plane that carries the most: see [`toppling`].
+    /// Safety against toppling over the edges of the plane with the largest normal force: see [`toppling`].
     pub toppling: f64,
 }
 
-/// What a block stands on and carries, but for the fluid.
+/// The supports and loads of a block without the load of the fluid.
 #[derive(Clone, Debug)]
 pub struct Footing {
     supports: Vec<Support>,
     weight: DVec3,
     centre: DVec3,
-    /// What else acts on it.
+    /// Point loads and applied acceleration.
     acting: Wrench,
 }
 
-/// Contacts of one plane.
+/// The contacts in one plane.
 #[derive(Clone, Debug, Default)]
 struct Support {
     plane: Plane,
@@ -43,9 +43,9 @@ struct Support {
 }
 
 impl Support {
-    /// Whether a block may begin to turn about an axis through `edge`: none of the corners then moves into the plane, by
-    /// more than the tilt of contacts over their distance from the axis. Where one is on the axis itself, rounding gives its direction,
-    /// so that the distance is that of the farthest.
+    /// Whether a block may begin to rotate about an axis through `edge`: no corner then moves into the plane by more than the
+    /// tilt of contacts. The tilt is relative to the distance of the farthest corner from the axis, because rounding
+    /// determines the direction of a corner on the axis.
     fn lets_turn(&self, axis: DVec3, edge: DVec3) -> bool {
         let directions = self.corners.iter().map(|x| axis.cross(*x - edge));
         let farthest = directions.clone().map(DVec3::length).fold(0.0, f64::max);
@@ -55,16 +55,16 @@ impl Support {
 }
 
 impl Standing {
-    /// Of the block `block` of `blocks`, which were made of `setup`, under the `force` (N) and `torque` about its
-    /// centroid (N m) of a fluid with its buoyancy; zero where there is none. What else acts on the block counts too,
-    /// but no guide of it: one that holds it is left out.
+    /// The factors of the block `block` of `blocks`, which were created from `setup`, under the force (N) and the torque about
+    /// its centroid (N m) of the `fluid`, buoyancy included; zero without a fluid. Point loads and the applied acceleration
+    /// of the block are included; forces of its guides are not.
     pub fn of(setup: &Setup, blocks: &Blocks, block: usize, fluid: [DVec3; 2]) -> Self {
         Footing::of(setup, blocks, block).under(fluid)
     }
 }
 
 impl Footing {
-    /// Of the block `block` of `blocks`, which were made of `setup`, where it is now.
+    /// The footing of the block `block` of `blocks`, which were created from `setup`, at its present pose.
     pub fn of(setup: &Setup, blocks: &Blocks, block: usize) -> Self {
         let [force, torque] = blocks.applied_load(block);
         Self {
@@ -75,7 +75,7 @@ impl Footing {
         }
     }
 
-    /// How safely the block stands there under the `force` (N) and `torque` about its centroid (N m) of a fluid with its buoyancy.
+    /// The factors of the block under the `force` (N) and `torque` about its centroid (N m) of a fluid, buoyancy included.
     pub fn under(&self, [force, torque]: [DVec3; 2]) -> Standing {
         let Self {
             supports,
@@ -110,7 +110,7 @@ impl Footing {
     }
 }
 
-/// The planes that a block touches.
+/// The planes that support a block.
 fn supports(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Support> {
     let mut supports: Vec<Support> = Vec::new();
     for touch in touching(setup, blocks, block) {
@@ -136,10 +136,10 @@ fn supports(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Support> {
     supports
 }
 
-/// Gap within which two faces touch, as a share of the block's radius: the rounding of scenes.
+/// Gap within which two faces touch, as a fraction of the block's radius: the rounding of scenes.
 const CLOSED: f64 = 1e-4;
-/// Least area of a touch, as a share of the square of the block's radius: faces next to that on which a block stands reach
-/// its ground with their edges, by the overlap of contacts.
+/// Smallest area of a touching patch, as a fraction of the square of the block's radius: the edges of the faces next to the
+/// base reach the ground too, because contacts overlap.
 const AREA: f64 = 1e-3;
 
 /// A patch in which a block touches another one.
@@ -149,14 +149,14 @@ struct Touching {
     pub other: usize,
     /// Unit normal into the block.
     pub normal: DVec3,
-    /// m².
+    /// Area, m².
     pub area: f64,
     /// Corners, m.
     pub corners: Vec<DVec3>,
 }
 
-/// The contacts of a block. One that has just been put somewhere has none, and one that forces do not move has none with
-/// others of that kind: with those that it has no contact with, the patches of its plane faces that lie on them.
+/// The contacts of a block, and for blocks without contacts the patches of its plane faces that lie on other blocks: a block
+/// that has just been placed has no contacts, and a block that forces do not move has none with others of that kind.
 fn touching(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Touching> {
     let poses = blocks.poses();
     let own = blocks.contacts().filter(|c| c.blocks.contains(&block));
@@ -182,7 +182,7 @@ fn of_contact(setup: &Setup, poses: &[Pose], block: usize, contact: &ContactPoin
         };
         placed
     });
-    // The normal goes from the first block to the second, which may be an image.
+    // The normal points from the first block to the second, which may be a periodic image.
     let second = contact.blocks[1] == block;
     let back = if second {
         contact.image_shift
@@ -203,8 +203,7 @@ fn of_contact(setup: &Setup, poses: &[Pose], block: usize, contact: &ContactPoin
     }
 }
 
-/// The patches of the plane faces of a block that lie on others, or on the images of others where space repeats, without
-/// those that are `known`.
+/// The patches of the plane faces of a block that lie on other blocks or their periodic images, except on the `known` blocks.
 fn faces_on_others(setup: &Setup, blocks: &Blocks, block: usize, known: &[usize]) -> Vec<Touching> {
     let shape = &setup.blocks[block].shape;
     let poses = blocks.poses();
@@ -268,11 +267,11 @@ fn faces_on(
     }
 }
 
-/// Cosine of the angle from which a face is across a contact's plane and bounds the patch: 10°. Those nearer to it are
-/// the faces that touch, which overlap and tilt a little.
+/// Cosine of the angle between a face and the contact plane above which the face bounds the patch: 10°. Faces at a smaller
+/// angle are the touching faces, which overlap and tilt slightly.
 const ACROSS: f64 = 0.985;
 
-/// Corners of the patch about `point` (m) across the unit vector `normal`; spheres touch in the point alone.
+/// Corners of the patch around `point` (m) normal to the unit vector `normal`; spheres touch only in the point.
 pub(super) fn patch(point: DVec3, normal: DVec3, parts: [&Placed; 2]) -> Vec<DVec3> {
     if parts.iter().any(|part| part.faces.is_empty()) {
         return vec![point];
@@ -299,7 +298,7 @@ pub(super) fn patch(point: DVec3, normal: DVec3, parts: [&Placed; 2]) -> Vec<DVe
 mod tests {
     use super::*;
 
-    /// A side wall of a block that topples along it, whose normal leans by `tilt` (rad) against the motion.
+    /// A side wall parallel to the motion of a toppling block; its normal is tilted by `tilt` (rad) against the motion.
     fn side_wall(tilt: f64) -> Support {
         let corner = |(x, z)| DVec3::new(x, 0.0, z);
         Support {
@@ -325,7 +324,7 @@ mod tests {
             }
         }
         assert!(!side_wall(0.01).lets_turn(-DVec3::Y, DVec3::ZERO));
-        // Into the wall itself.
+        // Rotation into the wall.
         assert!(!side_wall(0.0).lets_turn(DVec3::X, DVec3::ZERO));
         assert!(side_wall(0.0).lets_turn(-DVec3::X, DVec3::ZERO));
     }

@@ -3,12 +3,12 @@
 use super::factor;
 use glam::{DVec2, DVec3};
 
-/// What a block stands on.
+/// The base of a block.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Base {
     /// Unit normal into the block.
     pub normal: DVec3,
-    /// Corners of its contacts, m, in any order; it topples over the edges of their hull.
+    /// Corners of the contacts, m, in any order; the block topples over the edges of their hull.
     pub corners: Vec<DVec3>,
 }
 
@@ -22,22 +22,22 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// Moment about an axis (unit vector) from which the centroid is `arm` (m) away, N m: that of the true line of action.
+    /// Moment about an axis (unit vector) by the true line of action, N m; `arm` (m) leads from the axis to the centroid.
     fn moment(&self, arm: DVec3, axis: DVec3) -> f64 {
         (arm.cross(self.force) + self.torque).dot(axis)
     }
 }
 
-/// Safety against toppling over an edge of the base: ΣM⁺/ΣM⁻, the moments about the edge that hold the block down over
-/// those that turn it over (Novak, Moffat, Nalluri & Narayanan 2007, Hydraulic Structures, §3.2); the least of those of
-/// all edges that are `open`, which says whether a block may turn about an axis (unit vector) through a point (m).
+/// Safety against toppling over an edge of the base: ΣM⁺/ΣM⁻, the stabilising over the overturning moments about the edge
+/// (Novak, Moffat, Nalluri & Narayanan 2007, Hydraulic Structures, §3.2). The result is the smallest factor of all edges that
+/// are `open`, a function that returns whether the block may rotate about an axis (unit vector) through a point (m).
 ///
-/// The `weight` (N) acts at the `centroid` (m): its part along the normal of the base and the one across it count apart,
-/// each on the side of its sign. Each of the `loads` counts with its moment about the edge, whatever point it is reduced
-/// to, on the side of its sign: the thrust and the uplift of a fluid turn over, and uplift is not taken from the weight.
-/// What one load has on both sides, such as water on the slope of a face, is netted.
+/// The `weight` (N) acts at the `centroid` (m). Its components along and across the normal of the base enter separately,
+/// and each of the `loads` enters with its moment about the edge; the sign of a moment decides whether it is stabilising or
+/// overturning. The thrust and the uplift of a fluid are overturning, and uplift is not subtracted from the weight. The
+/// contributions to one load, such as water on a sloping face, are netted.
 ///
-/// Infinite where nothing turns it, 0 on a point, NaN on nothing.
+/// Infinite without an overturning moment, 0 for a base of one point, NaN without a base.
 pub fn toppling(
     weight: DVec3,
     loads: &[Wrench],
@@ -61,7 +61,7 @@ pub fn toppling(
     let mut least = f64::INFINITY;
     for (k, a) in hull.iter().enumerate() {
         let b = hull[(k + 1) % hull.len()];
-        // The block's top goes outwards.
+        // A positive rotation about the axis moves the top of the block outwards.
         let axis = (b - a).normalize_or_zero();
         if !open(axis, *a) {
             continue;
@@ -79,11 +79,10 @@ pub fn toppling(
     least
 }
 
-/// Corners of the hull of points in a plane, counter-clockwise about the normal (Andrew 1979); two for points of a
-/// line.
+/// Corners of the hull of points in a plane, counter-clockwise about the normal (Andrew 1979); two for collinear points.
 fn hull(points: &[DVec3], normal: DVec3) -> Vec<DVec3> {
     let (u, v) = normal.any_orthonormal_pair();
-    // u, v and the normal may be left-handed.
+    // Makes u, v and the normal right-handed.
     let v = v * u.cross(v).dot(normal).signum();
     let mut flat: Vec<(DVec2, DVec3)> = points
         .iter()
@@ -94,7 +93,7 @@ fn hull(points: &[DVec3], normal: DVec3) -> Vec<DVec3> {
         (Some((a, _)), Some((b, _))) => (*b - *a).length(),
         _ => return Vec::new(),
     };
-    // Corners closer than rounding are one.
+    // Merges corners closer than rounding.
     let tiny = 1e-9 * size;
     flat.dedup_by(|(a, _), (b, _)| (*a - *b).length() <= tiny);
     if flat.len() < 3 {
@@ -124,7 +123,7 @@ mod tests {
     use super::*;
     use glam::DQuat;
 
-    /// A block b wide and h high at its middle, on an incline of β that falls along x.
+    /// A block of width b and mean height h on an incline of angle β that falls along x.
     fn incline(b: f64, h: f64, beta: f64) -> (DVec3, Base) {
         let turn = DQuat::from_rotation_y(beta);
         let corner = |(x, y)| turn * DVec3::new(x * b / 2.0, y * 0.7, 0.0);
@@ -189,8 +188,8 @@ mod tests {
         }
     }
 
-    /// The moment of a load does not depend on the height at which it acts by way of a torque that would hold: a thrust P at
-    /// a quarter of the height h, W b/2 over P h/4.
+    /// A low thrust is not split into a force at the centroid and a stabilising torque: for a thrust P at a quarter of the
+    /// height h, the factor is W b/2 over P h/4.
     #[test]
     fn a_low_thrust_counts_with_its_own_arm() {
         let (centroid, base) = incline(2.0, 3.0, 0.0);
@@ -206,7 +205,7 @@ mod tests {
             let exact = b / h / beta.to_radians().tan();
             let found = factor(-5.0 * DVec3::Z, DVec3::ZERO, &on);
             assert!((found - exact).abs() < 1e-13, "{found} {exact}");
-            // Less gravity takes from what holds and what drives alike.
+            // Less gravity reduces stabilising and overturning moments equally.
             let wet = factor(-3.0 * DVec3::Z, DVec3::ZERO, &on);
             assert!((wet - exact).abs() < 1e-13);
         }
@@ -219,10 +218,10 @@ mod tests {
         // W b/2 over P h/2.
         let pushed = factor(DVec3::new(0.25, 0.0, -1.0), DVec3::ZERO, &on);
         assert!((pushed - 1.0 / 0.375).abs() < 1e-14);
-        // Rounding turns nothing.
+        // Rounding is not an overturning moment.
         let still = factor(-DVec3::Z, 1e-17 * DVec3::Y, &on);
         assert_eq!(still, f64::INFINITY);
-        // About the other edge this torque holds.
+        // About the other edge, this torque is stabilising.
         let turned = factor(-DVec3::Z, 0.5 * DVec3::Y, &on);
         assert!((turned - 2.0).abs() < 1e-14);
         let lifted = factor(DVec3::Z, DVec3::ZERO, &on);

@@ -11,12 +11,12 @@ fn rounding(momentum: DVec3) -> f64 {
     1e-6 * (momentum.length() + 100.0)
 }
 
-/// Edges of the boxes with the inertia of these scenes' blocks, the shortest first, m: I = 2/5 m r² of the ball is that of
-/// edges of √(12/5) r.
+/// Edges of the boxes with the same inertia as the blocks of these scenes, the shortest first, m: a ball with I = 2/5 m r²
+/// corresponds to a cube with edges of √(12/5) r.
 const BOXES: [[f64; 3]; 2] = [[2.0, 2.5, 2.5], [1.936_491_673_103_708_4; 3]];
 
-/// Virtual mass of a block, kg, of the mass `mass` and displaced fluid mass `displaced`: stable for an added mass of two thirds
-/// of the latter, more for a flat block, grown by a layer of a cell of 0.5 m on each side, plus that layer.
+/// Virtual mass of a block, kg, with the mass `mass` and the displaced fluid mass `displaced`: stable for an added mass of two
+/// thirds of `displaced`, more for a flat block, grown by a layer of one cell (0.5 m) on each side, plus that layer.
 fn virtual_mass([a, b, c]: [f64; 3], displaced: f64, mass: f64) -> f64 {
     let grown = (a + 1.0) * (b + 1.0) * (c + 1.0) / (a * b * c);
     let flat = ((b + 1.0) * (c + 1.0)).sqrt() / (a + 1.0);
@@ -71,7 +71,8 @@ fn what_driven_blocks_give_the_fluid_gains_in_every_step() {
     }
 }
 
-/// The same for faces along the grid with a wall law, which stops and restarts on the faces of a block that moves off the grid.
+/// Momentum is also conserved for faces along the grid with a wall law, which stops and restarts on the faces of a block that
+/// moves off the grid.
 #[test]
 fn what_the_wall_model_takes_from_the_fluid_blocks_gain() {
     let scene = format!(
@@ -164,7 +165,7 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
     let mut velocities = [world.velocity(0), world.velocity(1)];
     let mut rates = [DVec3::ZERO; 2];
     let mut given = [DVec3::ZERO; 2];
-    // Impulse of the fluid inside the blocks that they have been given back.
+    // Impulse of the fluid inside the blocks that has been returned to them.
     let mut inside = DVec3::ZERO;
     for step in 1..=40 {
         world.advance(1);
@@ -176,7 +177,7 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
             "step {step}: {off} of {after}"
         );
         fluid = after;
-        // Impulse not yet given for the virtual mass.
+        // Impulse of the virtual mass that has not yet been delivered.
         let mut pending = DVec3::ZERO;
         for n in 0..2 {
             let mass = world.sim.coupled().unwrap().blocks().mass(n);
@@ -199,7 +200,7 @@ fn what_the_fluid_loses_free_blocks_gain_in_every_step() {
                 "step {step}, block {n}: {off}"
             );
         }
-        // Fluid and rock, the fluid inside counted once.
+        // Fluid and rock, with the fluid inside counted once.
         let all = fluid + world.momentum(0) + world.momentum(1) - inside + pending;
         let off = (all - start).length();
         assert!(off < 1e-4 * start.length(), "step {step}: {off} of {start}");
@@ -327,7 +328,7 @@ fn a_hundred_blocks_keep_their_momentum_and_their_memory() {
     world.advance(160);
     let end = all(&mut world);
     println!("{start} {end}, speed {speed_then} to {}", speed(&world));
-    // The momentum not yet delivered is three times that of the fluid inside per step, and half a load.
+    // The undelivered momentum is three times that of the fluid inside per step, plus half a load.
     assert!(
         (end - start).length() < 0.03 * start.length(),
         "{start} {end}"

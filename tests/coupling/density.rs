@@ -78,8 +78,8 @@ fn blocks_of_half_to_eight_times_the_density_come_to_rest() {
     }
 }
 
-/// Light cubes, eight cells across, in a stream between their own images: nothing there damps sound, and a response to it
-/// that is late amplifies it.
+/// Light cubes, eight cells across, in a stream between their own images: nothing there damps sound, and a delayed response
+/// to sound amplifies it.
 #[test]
 fn sound_between_light_blocks_dies_away() {
     for (interval, ratio) in [(1, 0.3), (1, 0.5), (2, 0.6), (4, 1.0)] {

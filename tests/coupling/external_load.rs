@@ -47,8 +47,8 @@ fn a_free_block_moves_as_what_it_is_told_to_feel() {
     assert!(moved > 1.0, "the fluid inside has no inertia: {moved} N");
 }
 
-/// Fluid in free fall has no pressure, and a block that is driven along with it has no load; if its acceleration stands for
-/// a pressure gradient, the load is that on the displaced fluid.
+/// Fluid in free fall has no pressure, and a block that is driven along with it has no load; if the acceleration of the fluid
+/// represents a pressure gradient, the load is that on the displaced fluid.
 #[test]
 fn a_block_that_is_driven_along_with_the_fluid_feels_what_fluid_would() {
     let weight = DENSITY * 2.4 * 2.1 * 1.9 * 0.004;

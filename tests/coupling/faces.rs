@@ -13,7 +13,7 @@ fn tank(position: [f64; 3], angle: f64) -> World {
     tank_of(24, shape, position, angle)
 }
 
-/// The same with `cells` cells, and a fixed block of this shape.
+/// The same tank with `cells` cells along an edge, and a fixed block of the given shape.
 fn tank_of(cells: u32, shape: &str, position: [f64; 3], angle: f64) -> World {
     let depth = 0.5 * f64::from(cells);
     World::new(&format!(
@@ -46,10 +46,10 @@ fn faces(world: &World) -> &[FaceLoad] {
     world.sim.coupled().unwrap().face_loads(0)
 }
 
-/// Pressure is linear in still water, so that its mean over a face is that at the centroid: up to rounding for faces along
-/// the grid. For others the cells next to a face are off-centre by less than a tenth of a cell, and the slope through them
-/// corrects for this to a fraction of a cell's own spread, 1/12, in that of ten cells. The sum over the faces is the whole
-/// load with the same error; its moment also contains the spread of the cells, times a tenth of a cell.
+/// Pressure is linear in still water, so that its mean over a face equals the pressure at the centroid, up to rounding for
+/// faces along the grid. On other faces, the cells next to the face are off-centre by less than a tenth of a cell. The slope
+/// through them corrects for this, up to the variance of a cell, 1/12, relative to that of ten cells. The sum over the faces
+/// is the whole load with the same error; its moment also contains the spread of the cells times a tenth of a cell.
 #[test]
 fn still_water_presses_by_its_depth() {
     for (position, angle, limit) in [([6.0, 6.0, 6.0], 0.0, 1e-5), ([6.1, 5.9, 6.3], 25.0, 1e-3)] {
@@ -74,14 +74,14 @@ fn still_water_presses_by_its_depth() {
         let error = (force - whole) / exact;
         println!("sum {error}; moment {}", moment / (exact * 8.0));
         assert!(error.length() < 2.0 * limit, "{error}");
-        // It vanishes about the centroid.
+        // The moment about the centroid vanishes.
         assert!(moment.length() < 10.0 * limit * exact * 8.0, "{moment}");
     }
 }
 
 /// Parts of one block that meet in a seam, rotated off the grid: cells that the other part cuts are not used for a face, and
-/// the seam is no face. The faces together have the buoyancy through the centroid, and each has the pressure at its depth, as
-/// well as cells across the grid resolve: 5 to 12 cells, in rows that begin up to two cells from the edge of a seam.
+/// the seam is not a face. The faces together have the buoyancy through the centroid, and each has the pressure at its depth,
+/// within the resolution of 5 to 12 cells in rows that begin up to two cells from the edge of a seam.
 #[test]
 fn compounds_in_still_water_feel_archimedes_push_on_their_faces() {
     let part = |size: [f64; 3], offset: [f64; 3]| {
@@ -130,7 +130,7 @@ fn compounds_in_still_water_feel_archimedes_push_on_their_faces() {
     }
 }
 
-/// A box that moves four cells along x, through two searches of tiles: its faces always have all cells next to them.
+/// A box that moves four cells along x, through two tile searches: its faces always have all of their adjacent cells.
 #[test]
 fn faces_of_a_block_in_motion_see_all_cells_beside_them() {
     let text = format!(
@@ -169,7 +169,7 @@ fn faces_of_a_block_in_motion_see_all_cells_beside_them() {
         );
         assert_eq!(coupled.face_loads(1).len(), 6);
         for load in coupled.face_loads(1) {
-            // 8 × 6 × 5 cells; along x one more if both ends lie on cell centres.
+            // 8 × 6 × 5 cells, and one more along x if both ends lie on cell centres.
             let area = 4.0 * load.face.area;
             let cells = f64::from(load.cells);
             let most = if load.face.normal.x.abs() > 0.5 {
@@ -187,7 +187,7 @@ fn faces_of_a_block_in_motion_see_all_cells_beside_them() {
     assert!(searches > 2, "{searches}");
 }
 
-/// On the bottom the base is dry, and the other faces are unchanged.
+/// If the block stands on the bottom, its base is dry, and the other faces are unchanged.
 #[test]
 fn a_face_on_the_ground_is_dry() {
     let mut world = tank([6.0, 6.0, 2.5], 0.0);
@@ -242,7 +242,7 @@ fn a_moving_lid_shears_the_face_below() {
     let load = world.cell_load(0).flow.force;
     println!("{} of {exact}, {load}", top.shear());
     assert!((top.shear() - DVec3::X * exact).length() < 1e-2 * exact);
-    // The cells of the slab have the same force.
+    // The sum over the cells of the slab yields the same force.
     assert_relative(top.force.x, load.x, 1e-2);
 }
 
@@ -280,12 +280,13 @@ fn who_does_not_ask_has_no_loads_on_faces() {
     );
 }
 
-/// A bar across a channel that is periodic along z, with flow along x; it has a `length` along z, with its middle at `z`.
+/// A bar across a channel that is periodic along z, with flow along x; it has the length `length` along z and its middle at
+/// `z`.
 fn bar(length: f64, z: f64) -> World {
     turned_bar(length, z, 0.0)
 }
 
-/// The same, rotated by `angle` degrees about its axis.
+/// The same bar, rotated by `angle` degrees about its axis.
 fn turned_bar(length: f64, z: f64, angle: f64) -> World {
     let mut world = World::new(&format!(
         r#"{}{}
@@ -318,7 +319,7 @@ fn turned_bar(length: f64, z: f64, angle: f64) -> World {
     world
 }
 
-/// The load on a face is per period, as that on the block; from the first cell on, to some per cent of the drag of ten cells.
+/// The load on a face is per period, like the load on the block, to within some per cent of the drag of ten cells.
 #[test]
 fn faces_longer_than_a_period_feel_one_period() {
     for (length, z) in [(4.0, 2.0), (14.0, 1.3), (22.0, 2.0)] {
@@ -362,7 +363,7 @@ fn faces_across_a_periodic_face_are_whole() {
     }
 }
 
-/// The parts of faces outside of the domain do not count.
+/// The parts of faces outside of the domain are ignored.
 #[test]
 fn faces_end_at_the_walls() {
     let mut world = tank([6.0, 6.0, 1.0], 0.0);

@@ -89,14 +89,14 @@ fn a_lattice_without_a_solid_operator_takes_no_blocks() {
     assert!(error.to_string().contains("solid operator"), "{error}");
 }
 
-/// A device that holds the fluid, but not the data of blocks in all of its cells: the populations take every binding but one.
+/// A device that can hold the fluid, but not the data of blocks in all cells: the populations take all bindings except one.
 #[test]
 fn blocks_that_reach_more_cells_than_a_binding_holds_are_refused() {
     let cells = [64, 64, 48];
     let all = 4 * u64::from(cells.iter().product::<u32>());
     let limits = Rig::new().device.limits();
     let buffers = limits.max_storage_buffers_per_shader_stage.min(12);
-    // Five of them are for other fields. Nine numbers per cell are more than the directions in one binding.
+    // Five buffers are for other fields. Nine numbers per cell are more than the directions in one binding.
     let directions = 27_u64.div_ceil(u64::from(buffers - 5));
     assert!(directions < 9);
     let rig = Rig::with_limits(wgpu::Limits {
@@ -205,7 +205,7 @@ fn a_block_that_is_crushed_ends_the_run_where_it_was() {
     assert!(matches!(error, Error::DeepOverlap { .. }), "{error}");
     assert!(error.to_string().contains("nut"), "{error}");
     let stopped = [world.centre(0), world.centre(1)];
-    // A second attempt returns the same error and moves nothing.
+    // A second attempt returns the same error and changes no state.
     let error = world.try_advance(1).unwrap_err();
     assert!(matches!(error, Error::DeepOverlap { .. }), "{error}");
     assert_eq!([world.centre(0), world.centre(1)], stopped);

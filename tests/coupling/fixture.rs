@@ -10,12 +10,12 @@ use riprap::{
     simulation::Simulation,
 };
 
-/// Length of a step, s.
+/// Time step, s.
 pub const STEP: f64 = 0.25;
 /// Density of the fluid, kg/m³.
 pub const DENSITY: f64 = 1000.0;
 
-/// Rock of this density (kg/m³) that is soft enough for long sub-steps.
+/// A rock material of the given density (kg/m³), soft enough for long sub-steps.
 pub fn material(name: &str, density: f64) -> String {
     format!(
         "[[materials]]\nname = \"{name}\"\ndensity = {density}\nnormal_stiffness = 1e5\nfriction = 30\n"
@@ -31,7 +31,7 @@ pub fn fluid(cells: [u32; 3], nu: f64) -> String {
     )
 }
 
-/// The same under this acceleration, m/s².
+/// The same fluid with the given acceleration, m/s².
 pub fn accelerated_fluid(cells: [u32; 3], nu: f64, acceleration: [f64; 3]) -> String {
     let accelerated = format!("acceleration = {acceleration:?}\nviscosity");
     fluid(cells, nu).replace("viscosity", &accelerated)
@@ -84,7 +84,7 @@ impl World {
         }
     }
 
-    /// The scene with these kernels.
+    /// The scene `text` with the given kernels.
     pub fn with(text: &str, kernels: Kernels) -> Self {
         let scene = kit::scene::read(text).unwrap();
         Self::of(&for_kernels(&scene, kernels)).unwrap()

@@ -4,7 +4,7 @@ use crate::fixture::{World, fluid, material};
 use kit::assert_contains;
 use riprap::{Error, scene::Warning};
 
-/// A duct with a box of 2 m at `x`, and this inlet velocity.
+/// A duct with a box of 2 m at `x` and the given inlet velocity.
 fn duct(velocity: &str, x: f64, motion: &str) -> World {
     World::new(&duct_scene(velocity, x, motion))
 }

@@ -4,9 +4,9 @@
 
 /// Density of the blocks over that of the fluid.
 const DENSITY: f64 = 2.65;
-/// Weights of the populations that move by 0, 1 and −1 across the joints, summed over all other directions.
+/// Weights of the populations with velocities 0, 1 and −1 across the joints, summed over the other directions.
 const W: [f64; 3] = [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0];
-/// Rows of full cells at each face that reflect; deeper ones are at equilibrium with the block.
+/// Number of rows of full cells at each face that reflect; deeper rows are at equilibrium with the block.
 const REFLECT: usize = 2;
 
 /// Direction of the modelled momentum.
@@ -23,7 +23,7 @@ enum Along {
 struct Joint {
     /// B of the momentum and of the other moments.
     weights: [f64; 2],
-    /// Delay of the load in steps, for which it is corrected.
+    /// Delay of the load, in steps, that the correction assumes.
     delay: f64,
 }
 
@@ -35,7 +35,7 @@ const CLOSED: Joint = Joint {
 struct Row {
     along: Along,
     joint: Joint,
-    /// Full cells of a block, without its halves of two joints.
+    /// Number of full cells of a block, without its halves of two joints.
     full: usize,
     populations: Vec<[f64; 3]>,
     velocity: [f64; 2],
@@ -110,7 +110,7 @@ impl Row {
         }
     }
 
-    /// Populations after collision with a solid of velocity `u`; at its equilibrium if `deep`.
+    /// Populations after collision with a solid of velocity `u`; at equilibrium with it if `deep`.
     fn in_block(&self, f: &[f64; 3], u: f64, deep: bool) -> [f64; 3] {
         let [rest, up, down] = *f;
         match (self.along, deep) {
@@ -205,7 +205,7 @@ fn growth(along: Along, joint: Joint, full: usize) -> (f64, f64) {
     found
 }
 
-/// The table of the docs: blocks of seven cells.
+/// The table in docs/src/theory/solids.md: blocks of seven cells.
 #[test]
 fn what_nothing_stops_grows() {
     let without = |weights: [f64; 2]| Joint {

@@ -15,7 +15,7 @@ const SAFETY: &str = r#"
     block = "stone"
     safety = true
 "#;
-/// Size of the block along the grid of half a metre, m.
+/// Size of the block along the grid (cells of half a metre), m.
 const SIZE: DVec3 = DVec3::new(8.0, 6.0, 5.0);
 
 /// The block on the bottom of the tank.
@@ -32,8 +32,8 @@ fn stone(size: DVec3, motion: &str) -> String {
     )
 }
 
-/// A closed tank of 12 m along an edge with water at rest under `acceleration`, a block on its bottom, and inside of SIZE an
-/// initial pressure that is higher by `stale` (Pa).
+/// A closed tank of 12 m along an edge with water at rest under `acceleration`, and a block on its bottom. Within a box of SIZE,
+/// the initial pressure is higher by `stale` (Pa).
 fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64, block: &str) -> World {
     let [x, y, z] = acceleration.map(|a| DENSITY * a);
     // 1 in the box, 0 outside it.
@@ -54,8 +54,8 @@ fn tank(acceleration: [f64; 3], gravity: [f64; 3], stale: f64, block: &str) -> W
     world
 }
 
-/// Buoyancy under any gravity, also with pressure relative to the hydrostatic one, up to the rounding of pressures over the
-/// head, in the load on the block too, for any initial pressure inside.
+/// The uplift equals the buoyancy under any gravity, also with pressure relative to the hydrostatic pressure, up to the rounding
+/// of pressures over the head, and for any initial pressure inside. So does the load on the block.
 #[test]
 fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
     let heavy = [0.0, 0.0, -0.01];
@@ -73,15 +73,15 @@ fn in_still_water_the_base_carries_the_pressure_of_its_rim() {
             let whole = load.flow.force + load.buoyancy.force;
             println!("{acceleration:?}, {stale}: {force}, {torque}; {exact}; {whole}");
             assert!((force - exact).length() < 1e-4 * exact.length());
-            // A sum over cells misses h²/12 of each face's ∫ r².
+            // A sum over cells lacks h²/12 of each face's ∫ r².
             assert!(torque.length() < 5e-4 * exact.length() * SIZE.x);
             assert!((whole - exact).length() < 1e-2 * exact.length());
         }
     }
 }
 
-/// Sides that rows of cells do not fill, and sides of one row, which give no slopes: pressures are relative to the surface,
-/// so that those at the bottom are all far from 0.
+/// Sides that rows of cells do not fill, and sides of one row, which determine no slopes. Pressures are relative to the
+/// surface, so that all pressures at the bottom are far from 0.
 #[test]
 fn the_base_of_a_block_across_the_grid_carries_the_pressure_of_its_rim() {
     let heavy = [0.0, 0.0, -0.01];
@@ -136,7 +136,7 @@ fn what_was_inside_at_the_start_moves_no_block() {
     let world = tank(heavy, heavy, 120.0, &held);
     let centre = world.sim.coupled().unwrap().blocks().poses()[0].centre;
     let moved = (centre - DVec3::new(6.0, 6.0, 2.5)).length();
-    // It sinks in by 0.8 mm due to its weight, and twice that at first.
+    // The block sinks in by 0.8 mm due to its weight, and by twice that at first.
     assert!(moved < 2e-3, "{moved} m");
 }
 
@@ -211,7 +211,7 @@ pub fn dam(high: f64) -> String {
     )
 }
 
-/// The pressure in each joint is linear between its own ends, whatever is wet elsewhere.
+/// The pressure in each joint is linear between its own ends and independent of other wet faces.
 #[test]
 fn each_joint_has_the_pressure_of_its_own_rim() {
     let high = 100.0;

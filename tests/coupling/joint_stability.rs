@@ -1,5 +1,6 @@
 //! Blocks a few cells thick in water of very low viscosity come to rest in their joints, closed or thinner than a cell. Full
-//! cells reflect what leaves a joint, and loads are late: undamped modes grow until the water in the joint is supersonic.
+//! cells reflect the populations that leave a joint, and loads are delayed: undamped modes grow until the water in the joint
+//! is supersonic.
 
 use crate::fixture::World;
 
@@ -29,7 +30,7 @@ fn fastest(world: &World, blocks: usize) -> f64 {
     speeds.fold(0.0, f64::max)
 }
 
-/// Both faces lie in one row of cells. Late loads, or water between full cells that only the joint damps, would each drive
+/// Both faces lie in one row of cells. Delayed loads, or water between full cells that only the joint damps, would each drive
 /// the plates apart at 10 m/s.
 #[test]
 fn plates_on_both_sides_of_a_thin_gap_come_to_rest() {

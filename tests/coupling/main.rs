@@ -1,4 +1,4 @@
-//! Blocks and fluid together: conservation, reproducibility, skipped work and refusals.
+//! Blocks and fluid together: conservation, reproducibility, skipped work and errors.
 
 mod conservation;
 mod density;

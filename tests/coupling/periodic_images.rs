@@ -64,7 +64,7 @@ fn films_slow_blocks_down_and_keep_momentum() {
         world.advance(11);
         let (of_fluid, _) = world.fluid();
         let whole = of_fluid + world.momentum(0) + world.momentum(1);
-        // It does not contain the part of a step's load that the blocks have not yet received.
+        // The sum lacks the part of a step's load that the blocks have not yet received.
         assert!(whole.length() < 2e-2 * scale, "{whole}");
     }
     let closing = |world: &World| world.velocity(0).x - world.velocity(1).x;

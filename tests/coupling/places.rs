@@ -1,4 +1,4 @@
-//! Blocks at periodic faces, at walls and in corners; blocks of many faces.
+//! Blocks at periodic faces, at walls and in corners; blocks with many faces.
 
 use crate::fixture::{DENSITY, STEP, World, fluid, material};
 use kit::{assert_near, assert_relative};
@@ -36,7 +36,7 @@ fn borders_that_are_periodic_are_none() {
         middle.advance(1);
         border.advance(1);
         let (a, b) = (middle.cell_load(0).flow, border.cell_load(0).flow);
-        // The sums are in another order.
+        // The order of summation differs.
         let off = (a.force - b.force).length() / a.force.length().max(1.0);
         assert!(off < 1e-4, "step {step}: {} and {}", a.force, b.force);
         let off = (a.torque() - b.torque()).length() / a.torque().length().max(1.0);
@@ -114,7 +114,7 @@ fn blocks_anywhere_leave_the_flow_whole() {
             );
         }
     }
-    // In 30 s it has moved 7.5 m.
+    // The block has moved 7.5 m in 30 s.
     assert!(world.centre(1).x > 18.0);
     assert_eq!(world.cell_load(1).flow, riprap::geometry::Load::default());
     // Only the part of the slab inside the domain counts.

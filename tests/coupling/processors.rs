@@ -1,5 +1,5 @@
-//! Coupled scenes with the kernels of a GPU (one cell per invocation, sums by workgroups, pairs found on the device) and with
-//! those of a CPU give the same results within the rounding of sums in another order.
+//! Coupled scenes with the GPU kernels (one cell per invocation, sums by workgroups, pairs found on the device) and with the
+//! CPU kernels give the same results within the rounding of sums in different order.
 
 use crate::{
     fixture::World, inlets::duct_scene, joint_seal::dam, periodic_images::pair, reproducibility,
@@ -21,7 +21,7 @@ fn largest(all: impl Iterator<Item = DVec3>) -> f64 {
     all.map(DVec3::length).fold(0.0, f64::max)
 }
 
-/// Fails unless the two differ by at most the limit times their largest value or `scale`.
+/// Asserts that both differ by at most [`LIMIT`] times their largest value or `scale`.
 #[track_caller]
 fn assert_alike(what: &str, scale: f64, [cpu, gpu]: [Vectors; 2]) {
     assert_eq!(cpu.len(), gpu.len(), "{what}");
@@ -32,8 +32,8 @@ fn assert_alike(what: &str, scale: f64, [cpu, gpu]: [Vectors; 2]) {
     assert!(off <= LIMIT * size, "{what}: {off:e} of {size:e}");
 }
 
-/// Takes `steps` steps of a scene, in which blocks or fluid start with `speed` (m/s), with both, and compares positions and
-/// velocities of its blocks, the loads on them, their faces and their joints, and the flow.
+/// Runs `steps` steps of a scene, in which blocks or fluid start with `speed` (m/s), with both kinds of kernels, and compares
+/// positions and velocities of the blocks, the loads on blocks, faces and joints, and the flow.
 fn check(text: &str, steps: u64, speed: f64) {
     let mut worlds = [Kernels::Cpu, Kernels::Gpu].map(|kernels| World::with(text, kernels));
     let lanes = |world: &World| world.sim.lattice().unwrap().setup().lanes;
@@ -109,8 +109,8 @@ fn a_dam_with_a_gate_on_closed_joints() {
     check(&dam(100.0), 60, 0.0);
 }
 
-/// They meet after some ten steps, and the film between them keeps them apart. Long after that, moments at one step differ
-/// more: by 6e-5 after 60 steps.
+/// The blocks meet after some ten steps, and the film between them keeps them apart. Later, the moments in a single step
+/// differ more: by 6e-5 after 60 steps.
 #[test]
 fn two_blocks_with_a_film_that_meet_across_a_periodic_face() {
     check(&pair(8.0, true), 24, 0.1);

@@ -6,7 +6,7 @@ use riprap::{
     simulation::checkpoint::{Checkpoint, FluidState, LatticeState},
 };
 
-/// A free block that leaves its tiles, a driven one, one that is asleep on the floor and a fixed one.
+/// A free block that leaves its tiles, a driven block, one that is asleep on the floor, and a fixed one.
 pub fn scene(interval: u32, average: bool) -> String {
     format!(
         r#"{}{}{}damping = 0.7
@@ -77,7 +77,7 @@ impl World {
 fn runs_repeat_and_go_on_from_every_cut() {
     for (interval, average) in [(1, false), (3, true)] {
         let text = scene(interval, average);
-        // Before and after a readback, odd and even, awake and asleep.
+        // Before and after a readback, at odd and even steps, awake and asleep.
         let cuts = [1, 5, 13, 24, 36, 47];
         let mut whole = World::new(&text);
         let (mut saved, mut slept) = (Vec::new(), 0);

@@ -1,4 +1,4 @@
-//! Steps skip work that they do not need.
+//! Steps skip unnecessary work.
 
 use crate::fixture::{World, fluid, material, resting};
 use kit::assert_relative;

@@ -6,7 +6,7 @@ use glam::DVec3;
 /// Size of the block, m: 8 × 6 × 5 cells.
 const SIZE: DVec3 = DVec3::new(4.0, 3.0, 2.5);
 
-/// A closed tank of water at rest, with a bed of this height (m) unless it is 0, and a stone on it.
+/// A closed tank of water at rest, with a bed of height `bed` (m) unless it is 0, and a stone on it.
 fn tank(bed: f64, gravity: [f64; 3], friction: f64, stone: &str) -> World {
     let bed_block = match bed > 0.0 {
         true => format!(
@@ -63,7 +63,7 @@ fn a_block_that_slides_is_not_tied_to_its_bed() {
     }
 }
 
-/// On a bed of 30° whose friction angle is a degree more or less.
+/// A block on a bed of 30° whose friction angle is larger or smaller by one degree.
 #[test]
 fn submerged_blocks_slide_from_their_friction_on() {
     let gravity = [0.005, 0.0, -0.01 * 30_f64.to_radians().cos()];

@@ -150,7 +150,7 @@ fn directions() {
     assert_eq!(there, C);
 }
 
-/// vec3 is aligned to 16 bytes in WGSL and to 4 on the host: this common error is detected.
+/// vec3 is aligned to 16 bytes in WGSL and to 4 on the host. This common mismatch is detected.
 #[test]
 fn a_padded_vector_is_refused() {
     #[repr(C)]

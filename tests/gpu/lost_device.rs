@@ -1,4 +1,4 @@
-//! A device that is lost during a run: an error that says so, and an earlier state that can be continued.
+//! A device that is lost during a run: the error reports the loss, and an earlier state can be continued.
 
 use kit::{Rig, assert_contains};
 use riprap::{
@@ -44,7 +44,7 @@ fn lost<T: std::fmt::Debug>(found: Result<T>) {
     assert_contains(&text, &["device lost", "checkpoint"]);
 }
 
-/// As [`Rig::wait`], but waiting itself may fail.
+/// Like [`Rig::wait`], but waiting itself may fail.
 fn wait<T>(rig: &Rig, future: impl Future<Output = Result<T>>) -> Result<T> {
     let patience = std::time::Duration::from_secs(60);
     kit::gpu::drive(&rig.device, patience, "a test", future)?

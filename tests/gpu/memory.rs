@@ -8,7 +8,7 @@ fn flow(blocks: &str) -> Scene {
     stored("f32", blocks)
 }
 
-/// The same with another storage of the populations.
+/// The same flow with the given storage of the populations.
 fn stored(storage: &str, blocks: &str) -> Scene {
     scene(&format!(
         r#"
@@ -47,7 +47,7 @@ fn scene(text: &str) -> Scene {
     kit::scene::read(text).unwrap()
 }
 
-/// A device whose buffers and bindings hold at most this many bytes.
+/// A device whose buffers and bindings hold at most `bytes` bytes.
 fn small(bytes: u64) -> Rig {
     Rig::with_limits(wgpu::Limits {
         max_storage_buffer_binding_size: bytes,
@@ -56,14 +56,14 @@ fn small(bytes: u64) -> Rig {
     })
 }
 
-/// The result of making a simulation of a scene on a device.
+/// The result of creating a simulation of a scene on a device.
 fn made(rig: &Rig, scene: &Scene) -> Result<()> {
     rig.simulation(scene).map(|_| ())
 }
 
 #[test]
 fn a_fluid_that_a_binding_does_not_hold_is_refused_with_its_bytes() {
-    // A direction of 4096 cells takes 16 384 bytes. Besides the populations an output kernel has four bindings.
+    // A direction of 4096 cells takes 16 384 bytes. An output kernel has four bindings in addition to the populations.
     let bindings = Rig::new()
         .device
         .limits()
@@ -157,6 +157,6 @@ fn a_device_without_memory_says_what_it_does_not_hold() {
         made(&rig, &water()).unwrap_err(),
         &["800 particles", "larger spacing"],
     );
-    // Nothing of it remains that could fail later.
+    // No pending error remains that could appear later.
     assert!(matches!(made(&rig, &water()), Err(Error::Device(_))));
 }

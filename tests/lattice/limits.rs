@@ -461,7 +461,7 @@ fn a_device_of_few_bindings_is_told_of_them_and_not_of_bytes() {
     let mut setup = Setup::periodic([8; 3], 0.01);
     assert!(found(&setup, 5).is_ok());
     let message = limit(found(&setup, 4).unwrap_err());
-    assert_contains(&message, &["storage buffers a shader stage"]);
+    assert_contains(&message, &["storage buffers per shader stage"]);
     assert!(!message.contains("bytes"), "{message}");
     setup.bindings = Some(3);
     let message = limit(found(&setup, 6).unwrap_err());
@@ -505,7 +505,7 @@ fn more_than_a_buffer_holds_is_not_read_back() {
     for (buffer, count, told) in [
         (&open, 17, "that has 16"),
         (&open, usize::MAX, "that has 16"),
-        (&open, 3, "words of 4"),
+        (&open, 3, "multiple of 4"),
         (&closed, 4, "COPY_SRC"),
     ] {
         let read = readback.read::<u8>(&device, &queue, buffer, count);

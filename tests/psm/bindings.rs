@@ -20,7 +20,7 @@ fn setup() -> Setup {
     setup
 }
 
-/// A rotating box, for some steps; returns the bindings of the planes, the loads of the last step and the populations.
+/// Runs some steps of a rotating box; returns the bindings of the planes, the loads of the last step and the populations.
 fn run(limits: wgpu::Limits) -> (u32, Vec<u32>, Populations) {
     let rig = Rig::with_limits(limits);
     let (device, queue) = (&rig.device, &rig.queue);

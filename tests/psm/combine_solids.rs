@@ -66,7 +66,7 @@ pub fn crowd(noise: &mut Random, blocks: u32, middle: DVec3) -> Vec<Placed> {
     placed
 }
 
-/// Marks and fractions in any order.
+/// Random marks and fractions.
 pub fn random_shares(tiling: &Tiling, noise: &mut Random) -> Vec<f32> {
     let mut shares = Vec::new();
     for tile in &tiling.tiles {
@@ -85,7 +85,7 @@ pub fn random_shares(tiling: &Tiling, noise: &mut Random) -> Vec<f32> {
     shares
 }
 
-/// Effective fractions for the shares, of any size if a part is in a cell or next to it.
+/// Random effective fractions for cells with a share or a mark.
 pub fn random_effective(shares: &[f32], noise: &mut Random) -> Vec<[f32; 2]> {
     let one = |share: &f32| match *share {
         INTERIOR | 1.0 => [1.0; 2],
@@ -98,7 +98,7 @@ pub fn random_effective(shares: &[f32], noise: &mut Random) -> Vec<[f32; 2]> {
     shares.iter().map(one).collect()
 }
 
-/// Sum of the effective fractions with its marks, velocity, and solid fraction of one cell of a slot.
+/// Sum of the effective fractions with its code, velocity, and solid fraction of one cell of a slot.
 fn twin(
     tiling: &Tiling,
     (shares, effective): (&[f32], &[[f32; 2]]),
@@ -194,7 +194,7 @@ fn shares_add_and_velocities_are_their_mean() {
             ("effective_fractions", &bench.buffer(&effective)),
             ("psm_planes_0", &saturation),
         ];
-        // Either kind of walk.
+        // Alternates between both kinds of walk.
         let walk = [Walk::Serial, Walk::Parallel][(seed % 2) as usize];
         let program = combine_parts(&tiling.grid, walk);
         let numbers = constants(&tiling.grid);

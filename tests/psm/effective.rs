@@ -10,7 +10,7 @@ use glam::{DQuat, DVec3};
 use kit::{Random, Workbench};
 use riprap::{geometry::HalfSpace, lattice::SolidWeight};
 
-/// Effective fractions of a polyhedron with the fraction `solid` in the cell about `r`: alone, and next to other parts.
+/// Effective fractions of a polyhedron with the fraction `solid` in the cell around `r`: alone, and next to other parts.
 pub fn effective_hull(faces: &[HalfSpace], r: DVec3, solid: f64) -> [f64; 2] {
     if solid <= 0.0 {
         return [0.0; 2];
@@ -40,7 +40,7 @@ pub fn effective_hull(faces: &[HalfSpace], r: DVec3, solid: f64) -> [f64; 2] {
     [effective, left[least]].map(|e| e * (solid / product).sqrt().min(1.0))
 }
 
-/// Effective fraction of parts that share a cell, each with its solid fraction and its effective ones.
+/// Effective fraction of parts that share a cell, each given by its solid fraction and its two effective fractions.
 pub fn together(parts: &[(f64, [f64; 2])]) -> f64 {
     let parts: Vec<_> = parts
         .iter()
@@ -67,7 +67,7 @@ pub fn effective_ball(radius: f64, growth: f64, r: DVec3) -> f64 {
     }
 }
 
-/// In the notation of the docs: two planes at a right angle leave 1/4 and 3/4; a plane that leaves all does not count.
+/// In the notation of the docs: two planes at a right angle leave 1/4 and 3/4; a plane that cuts nothing off has no effect.
 #[test]
 fn planes_at_right_angles() {
     let plane = |normal, distance| HalfSpace { normal, distance };
@@ -84,7 +84,7 @@ fn planes_at_right_angles() {
     }
 }
 
-/// Flush boxes leave the same as the plane of both, wherever their joints are.
+/// Flush boxes have the effective fraction of their common plane, independent of the position of their joints.
 #[test]
 fn flush_parts() {
     let plane = |normal, distance| HalfSpace { normal, distance };

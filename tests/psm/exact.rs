@@ -1,4 +1,4 @@
-//! Exact volumes in f64: of polyhedra by clipping polygons, of balls by sections.
+//! Exact volumes in f64: polyhedra by clipping of polygons, balls by sections.
 
 use glam::{DVec2, DVec3};
 use kit::{assert_near, assert_relative};
@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub struct Solid(Vec<Vec<DVec3>>);
 
 impl Solid {
-    /// The unit cube about `centre`.
+    /// The unit cube around `centre`.
     pub fn cell(centre: DVec3) -> Self {
         let corner = |x: f64, y: f64, z: f64| centre + DVec3::new(x, y, z) / 2.0;
         let mut faces = Vec::new();
@@ -74,13 +74,13 @@ impl Solid {
     }
 }
 
-/// Fraction of the unit cell about `centre` inside all `faces`.
+/// Fraction of the unit cell around `centre` inside all `faces`.
 pub fn hull_fraction(faces: &[HalfSpace], centre: DVec3) -> f64 {
     let solid = faces.iter().fold(Solid::cell(centre), Solid::cut);
     solid.volume()
 }
 
-/// Fraction of the unit cell about `centre` inside the ball about the origin: sections across z, whose area is exact, by
+/// Fraction of the unit cell around `centre` inside the ball around the origin: sections across z, whose area is exact, by
 /// tanh-sinh quadrature (Takahasi & Mori 1974) between the heights at which the section changes its shape.
 pub fn ball_fraction(radius: f64, centre: DVec3) -> f64 {
     let (low, high) = (centre - 0.5, centre + 0.5);
@@ -101,7 +101,7 @@ pub fn ball_fraction(radius: f64, centre: DVec3) -> f64 {
     heights.windows(2).map(part).sum()
 }
 
-/// The integral of `f` between two ends, where it may behave as a root.
+/// The integral of `f` between two ends, at which it may behave like a square root.
 fn tanh_sinh([a, b]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     const STEP: f64 = 1.0 / 12.0;
     let half = 0.5 * (b - a);
@@ -116,7 +116,7 @@ fn tanh_sinh([a, b]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
     STEP * half * sum.sum::<f64>()
 }
 
-/// Area of the disc about the axis z with the squared radius `square`, within a rectangle: the sum over its edges of the disc
+/// Area of the disc around the axis z with the squared radius `square`, within a rectangle: the sum over its edges of the disc
 /// within the triangle of edge and axis.
 fn section(square: f64, low: DVec3, high: DVec3) -> f64 {
     let corners = [
@@ -148,7 +148,7 @@ fn cutting_is_exact() {
     };
     let share = |planes: &[HalfSpace]| hull_fraction(planes, at);
     assert_near(share(&[]), 1.0, 1e-15);
-    // A corner, all but a corner, a wedge, a slab, nothing.
+    // A corner, all except a corner, a wedge, a slab, nothing.
     let corner = plane(DVec3::ONE, -1.0);
     assert_near(share(&[corner]), 1.0 / 48.0, 1e-15);
     assert_near(share(&[plane(DVec3::ONE, 1.0)]), 47.0 / 48.0, 1e-15);
@@ -190,7 +190,7 @@ fn shares_of_balls_are_exact() {
         let sum: f64 = cells.map(|cell| ball_fraction(radius, cell + at)).sum();
         assert_relative(sum, volume(radius), 1e-13);
     }
-    // So far from the centre that the surface is a plane, up to 1 / 8R.
+    // So far from the centre that the surface is a plane up to 1 / 8R.
     let share = ball_fraction(1e3, DVec3::new(0.0, 0.0, 1e3 - 0.1));
     let mean_sagitta = 1.0 / (6.0 * 2e3);
     assert_near(share, 0.6 - mean_sagitta, 1e-8);

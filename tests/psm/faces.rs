@@ -166,7 +166,7 @@ impl Case {
         Some(all)
     }
 
-    /// The same, computed by the kernels.
+    /// The loads on each face, computed by the kernels.
     fn run(&self, walk: Walk, width: Option<u32>) -> Vec<f32> {
         let bench = Workbench::new(width);
         let (mut jobs, mut face_first) = (Vec::new(), vec![0]);
@@ -210,7 +210,7 @@ impl Case {
     }
 }
 
-/// Compounds, whose parts overlap here, and blocks whose face loads are not requested.
+/// Compounds with overlapping parts, and blocks whose face loads are not requested.
 fn blocks(noise: &mut Random) -> Vec<Placed> {
     let shapes = [
         (0, cuboid(7.0, 5.0, 6.0)),
@@ -239,7 +239,7 @@ fn check(case: &Case, width: Option<u32>) {
             }
         }
     }
-    // The narrow sides of a slab may have no cell.
+    // The narrow sides of a slab may have no cells.
     let seen = expected
         .iter()
         .filter(|sums| sums[FACE_LOAD - 1].0 > 0.0)
@@ -287,7 +287,7 @@ fn the_layer_beside_a_face_has_its_area() {
             let [height, fluid, cells] =
                 [6, FACE_LOAD - 2, FACE_LOAD - 1].map(|k| f64::from(found[k]));
             assert_eq!(fluid, cells, "all is wet");
-            // Feet within a tenth of a cell of the edges of 22 to 28 cells fall on either side.
+            // Feet within a tenth of a cell from edges of 22 to 28 cells may fall on either side.
             let most = if along_grid { 0.0 } else { 0.1 };
             let error = cells / area - 1.0;
             println!("{cells} cells of {area}");

@@ -1,4 +1,4 @@
-//! A lattice with blocks, together with its twin.
+//! A lattice with blocks, together with its f64 twin.
 
 use kit::{
     Rig,
@@ -50,8 +50,8 @@ pub fn places(grid: &Grid, bricks: &[u32]) -> Vec<(usize, usize, usize, usize)> 
     all
 }
 
-/// A random solid of every kind; exactly the same in f32 and f64. The solid is as fast as the fluid, since the rounding
-/// depends on its populations.
+/// A random solid of any kind, exactly equal in f32 and f64. The solid is as fast as the fluid, because the rounding depends on
+/// its populations.
 fn random_solid(cell: usize) -> Solid {
     let unit = |n: usize| 0.5 + 0.5 * noise(1_000_003 * (n + 1) + cell);
     let coarse = |x: f64| (x * 1024.0).round() / 1024.0;
@@ -72,7 +72,7 @@ fn random_solid(cell: usize) -> Solid {
         18 => (1.0, false),
         _ => (1.0, true),
     };
-    // Flush parts have more shares than their planes leave.
+    // Flush parts have more shares than the fraction that their planes leave.
     let flush = unit(6) > 0.5 && !deep;
     let fraction = f64::min(if flush { coarse(0.8 * shares) } else { shares }, 1.0);
     let shared = unit(5) > 0.5 && !deep;
@@ -131,7 +131,7 @@ impl Subject {
         }
     }
 
-    /// About two in three of the bricks that hold fluid, in no order.
+    /// About two thirds of the bricks that contain fluid, in arbitrary order.
     pub fn some_bricks(&self) -> Vec<u32> {
         let geometry = self.lattice.geometry();
         let all = geometry

@@ -61,7 +61,7 @@ fn structures() {
     check::<FaceJob>(&linked.module, "FaceJob", &job).unwrap();
 }
 
-/// The marks and sizes that both sides define by name.
+/// Marks and sizes that host and kernels define under the same name.
 #[test]
 fn constants() {
     let there = |name: &str| -> f32 {

@@ -31,8 +31,8 @@ fn busy(storage: Storage, lanes: u32) -> Setup {
     setup
 }
 
-/// Up to the rounding of one step: compilers may fold constants, which a solid fraction between them prevents, so that the
-/// bits differ.
+/// The results agree up to the rounding of one step. The bits differ because compilers may fold constants only in the plain
+/// kernel; in the other one the solid fraction prevents it.
 #[test]
 fn bricks_that_hold_no_block_give_what_the_plain_kernel_gives() {
     let mut periodic = Setup::periodic([5, 7, 4], 0.01);

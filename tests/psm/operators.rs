@@ -18,7 +18,7 @@ use riprap::{
 };
 use std::{collections::BTreeSet, sync::Arc};
 
-/// A box along the axes, whose share of a cell is a product, in lattice units.
+/// An axis-aligned box, whose share of a cell is a product, in lattice units.
 #[derive(Clone, Copy)]
 struct Cuboid {
     centre: DVec3,
@@ -53,7 +53,7 @@ impl Cuboid {
         effective_hull(&faces.collect::<Vec<_>>(), centre - self.centre, share)
     }
 
-    /// Whether all of the box of half width `reach` around `centre` lies inside.
+    /// Whether the box of half width `reach` around `centre` lies inside.
     fn holds(&self, centre: DVec3, reach: f64) -> bool {
         ((centre - self.centre).abs() + reach)
             .cmple(0.5 * self.size)
@@ -101,7 +101,7 @@ fn images(cells: [usize; 3], periodic: [bool; 3], cell: usize) -> Vec<DVec3> {
     all
 }
 
-/// The solid of some boxes in a cell.
+/// The solid of several boxes in a cell.
 fn solid_of(boxes: &[Cuboid], centres: &[DVec3], weight: SolidWeight) -> Solid {
     let mut flux = DVec3::ZERO;
     let mut parts = Vec::new();
@@ -131,7 +131,7 @@ fn solid_of(boxes: &[Cuboid], centres: &[DVec3], weight: SolidWeight) -> Solid {
         solid.velocity = (flux / solid.shares).to_array();
     }
     if solid.tight > 0.0 {
-        // In a closed joint, boxes that touch the cell count as one each.
+        // In a closed joint, each box that touches the cell has the weight one.
         let mut all = solid.shares;
         for (block, &x) in boxes
             .iter()
@@ -147,7 +147,7 @@ fn solid_of(boxes: &[Cuboid], centres: &[DVec3], weight: SolidWeight) -> Solid {
     solid
 }
 
-/// The loads that the twin computes in its coming step.
+/// The loads that the twin computes in its next step.
 fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<Load> {
     let twin = &subject.twin;
     let nu_t = twin.nu_t();

@@ -22,7 +22,7 @@ struct Case {
 }
 
 impl Case {
-    /// Blocks 3 and 8, the last one, have no tile.
+    /// Blocks 3 and 8 (the last one) have no tiles.
     fn new(seed: u64, lanes: u32, brick: [u32; 3]) -> Self {
         let mut noise = Random(seed);
         let middle = DVec3::new(17.0, -30.0, 13.0);
@@ -47,7 +47,7 @@ impl Case {
                     // Deep cells and walls have no beta.
                     let fluid = noise.unit() > 0.3;
                     let joint = noise.unit() > 0.7;
-                    // Half of them are only half closed.
+                    // Half of the joints are only half closed.
                     let sum = if noise.unit() > 0.5 { 1.0 } else { 0.951 };
                     let shared = if noise.unit() > 0.5 { SHARED_SUM } else { 0.0 };
                     let closed = if noise.unit() > 0.5 {
@@ -96,7 +96,7 @@ impl Case {
                 let at = |plane| f64::from(self.saturation[tiling.scalar(tile, plane, local)]);
                 let own = moving.at(point);
                 let mean = DVec3::new(at(1), at(2), at(3));
-                // Both marks of a joint are below that of an open shared cell.
+                // Both codes of a joint are below the code of an open shared cell.
                 let u = match at(0) - f64::from(JOINT_SUM) {
                     sum if (0.0..16.0).contains(&sum) => {
                         own.lerp(mean, ((sum % 8.0 - 0.9) / 0.098).clamp(0.0, 1.0))

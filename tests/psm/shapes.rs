@@ -18,14 +18,14 @@ pub fn cuboid(x: f64, y: f64, z: f64) -> Polyhedron {
     Polyhedron::cuboid(DVec3::new(x, y, z)).unwrap()
 }
 
-/// A regular one with the given edge.
+/// A regular tetrahedron with the given edge.
 pub fn tetrahedron(edge: f64) -> Polyhedron {
     let signs = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]];
     let normals = signs.map(|s| -DVec3::from_array(s.map(f64::from)));
     of(normals, edge / 24f64.sqrt())
 }
 
-/// A regular one with the given distance between opposite faces.
+/// A regular icosahedron with the given distance between opposite faces.
 pub fn icosahedron(across: f64) -> Polyhedron {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let signs = [-1.0, 1.0];
@@ -40,7 +40,7 @@ pub fn icosahedron(across: f64) -> Polyhedron {
     of(normals, across / 2.0)
 }
 
-/// Tangent planes of a ball in `faces` evenly spread directions.
+/// A polyhedron of tangent planes of a ball in `faces` evenly distributed directions.
 pub fn pebble(faces: usize, radius: f64) -> Polyhedron {
     // Points on a spiral with the golden angle.
     let turn = std::f64::consts::PI * (3.0 - 5f64.sqrt());

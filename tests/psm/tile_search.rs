@@ -1,4 +1,4 @@
-//! Blocks that move on from the poses of their last tile search: skipped cells have not changed.
+//! Blocks that move away from the poses of their last tile search: skipped cells have not changed.
 
 use glam::{DQuat, DVec3};
 use kit::Rig;

@@ -1,4 +1,4 @@
-//! Parts on a grid, cut into tiles one after the other: a slow but simple reference.
+//! A slow but simple reference implementation of the tiling: parts on a grid, cut into tiles one after the other.
 
 use glam::{DQuat, DVec3};
 use kit::Random;
@@ -8,7 +8,7 @@ use riprap::{
     psm::{PLANES, Part, Tile},
 };
 
-/// Uniform over all rotations (Shoemake 1992).
+/// A uniformly distributed random rotation (Shoemake 1992).
 pub fn rotation(random: &mut Random) -> DQuat {
     let [u, v, w] = random.point().to_array();
     let [v, w] = [v, w].map(|x| x * std::f64::consts::TAU);
@@ -147,7 +147,7 @@ impl Tiling {
         let first = [0, 1, 2].map(|a| at[a] * grid.brick[a]);
         let slices = grid.elements[2];
         let lowest = [first[0], first[1], first[2] + lane * slices];
-        // Elements of the brick after the last slice are not cells of the lane, cells after the last one not of the domain.
+        // Elements after the last slice are not cells of the lane, and cells after the last one are not in the domain.
         let end = [
             grid.cells[0],
             grid.cells[1],
@@ -200,7 +200,7 @@ impl Tiling {
         end(tile.inside >> 24)..end(tile.inside >> 28)
     }
 
-    /// The smallest range that contains what the parts can reach in a lane of a slot.
+    /// The smallest range that contains all elements that parts can reach in a lane of a slot.
     pub fn reach_of_lane(&self, slot: u32, lane: u32) -> std::ops::Range<usize> {
         let here = |tile: &&Tile| (tile.slot, tile.lane) == (slot, lane);
         let tiles = self.tiles.iter().filter(here);

@@ -8,8 +8,8 @@ use riprap::lattice::{
     Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage, WallModel,
 };
 
-/// Compares with the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights add up to 1,
-/// and have the rounding of those.
+/// Compares with the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights add up to 1, and
+/// have the rounding of the populations.
 fn assert_equal_to_twin(name: &str, setup: &Setup) {
     let mut subject = Subject::new(setup);
     let bricks = subject.some_bricks();
@@ -84,7 +84,7 @@ fn weights_at_any_viscosity() {
     assert!(error.contains("solid_weight"), "{error}");
 }
 
-/// (1/s − ½)(τ − ½) = Λ would give less than the floor at this viscosity; the second setup has one Λ for all cells.
+/// (1/s − ½)(τ − ½) = Λ would yield less than the floor at this viscosity; the second setup has one Λ for all cells.
 #[test]
 fn odd_rates_beside_blocks_have_a_floor_and_one_magic_rate_has_none() {
     let mut setup = box_of(0.004, SolidOperator::Holdych);
@@ -109,7 +109,7 @@ fn layouts_with_walls_beside_blocks_and_everything_on() {
         (Storage::F16, (2, 1), 3, [4, 2, 4], SolidOperator::Holdych),
         (Storage::F16, (4, 2), 2, [8, 4, 1], SolidOperator::Holdych),
     ];
-    // Everything except the populations takes up to seven bindings, of the 10 that SwiftShader has.
+    // All buffers except the populations take up to seven bindings, of the 10 that SwiftShader has.
     let most = Rig::new()
         .device
         .limits()
@@ -154,7 +154,7 @@ fn assert_restarts(subject: &mut Subject, fill: impl Fn(&mut Subject)) {
     assert!(ends[0] == ends[1], "{:?}", again.setup.storage);
 }
 
-/// Walls near blocks have no wall model.
+/// The wall model is not applied at walls near blocks.
 #[test]
 fn a_wall_model_beside_blocks() {
     for (storage, lanes, axis, brick) in [
@@ -228,7 +228,7 @@ fn friction_of_blocks() {
         (Storage::F16, 2, 2),
     ];
     for (n, (storage, lanes, axis)) in layouts.into_iter().enumerate() {
-        // From none of the law to all of it.
+        // From no contribution of the law of the wall to its full contribution.
         for (nu, first) in [(3e-3, 0.4375), (2e-5, 0.9375), (1e-6, 0.4375)] {
             let mut setup = Setup::periodic([13, 16, 12], nu);
             setup.faces[2] = [Face::Wall([0.0; 3]), Face::FreeSlip];

@@ -16,7 +16,7 @@ use riprap::{
 /// Constant c of the exact weight, cells².
 pub const GROWTH: f64 = 0.4;
 
-/// The shares of the listed tiles, bitwise equal for both kinds of walk; those of tiles that are not listed stay poisoned.
+/// The shares of the listed tiles, bitwise equal for both kinds of walk; tiles that are not listed stay poisoned.
 fn run(bench: &Workbench, tiling: &Tiling, work: &[u32]) -> Vec<f32> {
     let [shares, effective] = both(bench, tiling, work, SolidWeight::Standard);
     // With the weight of the paper the effective fraction is the solid fraction.
@@ -52,7 +52,7 @@ fn walked(
 ) -> [Vec<f32>; 2] {
     let cells = tiling.tiles.len() * tiling.workgroup();
     let (shares, effective) = (bench.poisoned(cells), bench.poisoned(2 * cells));
-    // A list without an entry yet, in poisoned memory.
+    // An empty list in poisoned memory.
     let mut list = vec![POISON; cells + 1];
     list[0] = 0;
     let edges = bench.buffer(&list);
@@ -70,7 +70,7 @@ fn walked(
     let program = voxelise(&tiling.grid, walk, Forms::ALL, weight);
     bench.run(&program, "voxelise", &numbers, &buffers, 64 * work.len());
     let program = voxelise_edges(&tiling.grid, Forms::ALL, weight);
-    // Fewer invocations than there are cells at edges: each does several.
+    // Fewer invocations than cells at edges, so that each processes several.
     bench.run(&program, "voxelise_edges", &numbers, &buffers, 128);
     [bench.read(&shares), bench.read(&effective)]
 }
@@ -90,7 +90,7 @@ fn sum(shares: &[f32]) -> f64 {
     shares.iter().map(|s| fraction(*s)).sum()
 }
 
-/// Height above a hull's highest face in half widths of a cell, and that half width.
+/// Height above a hull's highest face, in half widths of a cell, and this half width.
 fn highest(placed: &Placed, r: DVec3) -> (f64, f64) {
     let heights = placed.faces.iter().map(|face| {
         let w = face.normal.abs().element_sum() / 2.0;
@@ -101,7 +101,7 @@ fn highest(placed: &Placed, r: DVec3) -> (f64, f64) {
 
 /// Checks the marks of a cell; `exact` is its solid fraction.
 fn check_marks(placed: &Placed, r: DVec3, share: f32, exact: f64) {
-    // Within rounding of a limit either mark is correct.
+    // Within rounding of a limit, either mark is correct.
     const EDGE: f64 = 1e-4;
     let around = |layers: f64| r.abs() + layers + 0.5;
     let beside = |layers: f64| (r.abs() - layers - 0.5).max(DVec3::ZERO).length();
@@ -136,14 +136,14 @@ fn check_marks(placed: &Placed, r: DVec3, share: f32, exact: f64) {
 
 /// Rounding error of f32 over the few dozen terms of a cell's volume.
 const ROUNDING: f64 = 2e-6;
-/// The same if a face of the part is almost parallel to one of the cell, which the kernel neglects.
+/// The error if a face of the part is almost parallel to a face of the cell, which the kernel treats as parallel.
 const ALMOST_PARALLEL: f64 = 1e-4;
 
 /// Error of the columns: at an edge of the part their lengths have a kink. Between columns 1/8 apart a change of slope by 2
 /// costs at most 2/8/8² of a cell; faces that are steep relative to the columns, and several edges, cost more.
 const COLUMNS: f64 = 1e-2;
 
-/// Faces that cut the cell about r.
+/// Number of faces that cut the cell around r.
 fn cuts(placed: &Placed, r: DVec3) -> usize {
     let cut = |face: &&HalfSpace| face.height(r).abs() < face.normal.abs().element_sum() / 2.0;
     placed.faces.iter().filter(cut).count()
@@ -179,7 +179,7 @@ fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
     worst
 }
 
-/// Grids whose sizes are no multiples of bricks and lanes, about `size` cells along an axis.
+/// Grids whose sizes are not multiples of bricks and lanes, about `size` cells along an axis.
 fn grids(size: u32) -> [riprap::lattice::Grid; 4] {
     [
         grid([size; 3], 1, [4, 4, 4]),
@@ -200,7 +200,7 @@ fn cells_that_touch_a_cube() {
         let tiling = Tiling::new(grid([12; 3], 1, [4, 4, 4]), [0; 3], placed);
         let shares = all(&bench, &tiling);
         let touching = shares.iter().filter(|share| **share == TOUCHES).count();
-        // A larger cube reaches into them.
+        // A larger cube extends into these cells.
         let expected = if gap < 0.0 { 0 } else { faces * 16 };
         assert_eq!(touching, expected, "{gap}");
         check_cells(&tiling, &shares, ALMOST_PARALLEL);
@@ -298,7 +298,7 @@ fn cells_out_of_reach_are_left_alone() {
     }
 }
 
-/// Far from the origin of the coordinates, as for blocks next to a periodic face, no accuracy is lost.
+/// No accuracy is lost far from the origin of the coordinates, as for blocks next to a periodic face.
 #[test]
 fn each_cell_far_from_the_origin() {
     let bench = Workbench::new(None);
@@ -354,7 +354,7 @@ fn pieces_of_balls_of_any_size() {
             DVec3::new(0.0, 1.0, 1.0),
             DVec3::new(1.0, -1.0, 1.0),
             DVec3::new(1.0, 1e-4, -1e-4),
-            // The axis is near, or slightly too far.
+            // The axis is near, or slightly too far to count as near.
             DVec3::new(radius.sqrt(), -1.0, radius),
             DVec3::new(0.7, radius, -0.7 * radius.sqrt()),
         ];

@@ -1,11 +1,11 @@
-//! Boxes along the axes, in cells as large as they are.
+//! Axis-aligned boxes, sorted into grid levels by size.
 
 use bytemuck::{Pod, Zeroable};
 
 /// Bits of [`DeviceBox::tag`] that hold the number of the item.
 pub(crate) const NUMBER_BITS: u32 = 24;
 
-/// Levels that boxes can be on.
+/// Largest number of levels.
 pub(crate) const MAX_LEVELS: usize = 203;
 
 /// A box on the device.
@@ -22,13 +22,13 @@ pub struct DeviceBox {
     pub tag: u32,
 }
 
-/// The cells of the boxes of one size.
+/// The grid cells of the boxes of one size class.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Level {
-    /// Cells a metre, a power of two: to multiply by it is exact.
+    /// Cells per metre, a power of two, so that the multiplication is exact.
     pub scale: f32,
-    /// Longest edge of a box of this level, m; at most that of a cell.
+    /// Longest edge of a box of this level, m; at most the edge of a cell.
     pub extent: f32,
 }
 
@@ -38,12 +38,12 @@ impl DeviceBox {
         self.tag & ((1 << NUMBER_BITS) - 1)
     }
 
-    /// Its level; fine ones come first.
+    /// Level of the box; fine levels come first.
     pub fn level(&self) -> u32 {
         self.tag >> NUMBER_BITS
     }
 
-    /// Whether the two boxes have a point in common. Without branches, which nobody could predict.
+    /// Whether the two boxes have a point in common. Branch-free, because the result is unpredictable.
     pub fn overlaps(&self, other: &Self) -> bool {
         let along = |a: usize| (self.min[a] <= other.max[a]) & (other.min[a] <= self.max[a]);
         along(0) & along(1) & along(2)

@@ -2,14 +2,14 @@
 
 use crate::{Error, Result};
 
-/// What to change where a search does not fit.
+/// Remedy for a search that exceeds the limits of the device.
 pub(crate) const FEWER_BOXES: &str =
     "search on the host, in parts of the scene, or on another adapter";
 
-/// Whether the device binds as many bytes at once; `remedy` is what to change if not.
+/// Checks that `bytes` fit into one storage binding of the device.
 ///
 /// # Errors
-/// [`Error::Limit`] if not.
+/// [`Error::Limit`] with `remedy` if they do not.
 pub(crate) fn at_most(device: &wgpu::Device, what: &str, bytes: u64, remedy: &str) -> Result<()> {
     let limits = device.limits();
     let has = limits

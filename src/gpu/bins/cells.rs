@@ -1,4 +1,4 @@
-//! Williams, Perkins & Cook 2004, CGRID: boxes sorted into buckets of cells by count, scan and scatter.
+//! Williams, Perkins & Cook 2004, CGRID: sorts boxes into buckets of cells by count, scan and scatter.
 
 use super::{DeviceBox, FEWER_BOXES, Level, MAX_LEVELS, Scan, ScanOf, WORKGROUP, at_most};
 use crate::gpu::buffers::zeroed;
@@ -14,26 +14,26 @@ pub struct Bins {
     scatter: Kernel,
 }
 
-/// The buffers of a number of boxes, ready to be recorded.
+/// Buffers and bindings for a number of boxes, ready to be recorded.
 #[derive(Debug)]
 pub struct BinsOf {
-    /// Boxes that it is for.
+    /// Number of boxes.
     pub items: u32,
     boxes: wgpu::Buffer,
-    /// What the boxes are sorted by: scale and longest edge of each level.
+    /// The levels: scale and longest edge of each.
     pub levels: wgpu::Buffer,
-    /// Where the boxes of each bucket begin; one more than there are buckets.
+    /// Index of the first box of each bucket, and the total number of boxes.
     pub starts: wgpu::Buffer,
-    /// Of each bucket the lowest group, its bits inverted, and the highest; zeros if it is empty.
+    /// Lowest group, with its bits inverted, and highest group of each bucket; zeros if it is empty.
     pub groups: wgpu::Buffer,
-    /// The boxes, those of a bucket next to each other.
+    /// The boxes, sorted by bucket.
     pub entries: wgpu::Buffer,
     scan: ScanOf,
     count: wgpu::BindGroup,
     scatter: wgpu::BindGroup,
 }
 
-/// Buckets for a number of items: at least two an item and a block of 64, a power of two.
+/// Number of buckets for a number of items: a power of two, at least two per item and at least 64.
 pub(crate) fn buckets(items: u32) -> u32 {
     (2 * items).next_power_of_two().max(64)
 }
@@ -51,7 +51,7 @@ impl Bins {
         })
     }
 
-    /// Prepares the buffers for `items` boxes, at least one.
+    /// Creates the buffers for `items` boxes, at least one.
     ///
     /// # Errors
     /// [`crate::Error::Limit`] if the device cannot bind them.
@@ -90,7 +90,7 @@ impl Bins {
         })
     }
 
-    /// Records the sorting of the boxes that were last given to [`BinsOf::write`].
+    /// Records the sorting of the boxes last passed to [`BinsOf::write`].
     pub fn record(&self, encoder: &mut wgpu::CommandEncoder, scan: &Scan, of: &BinsOf) {
         encoder.clear_buffer(&of.starts, 0, None);
         encoder.clear_buffer(&of.groups, 0, None);
@@ -103,7 +103,7 @@ impl Bins {
 }
 
 impl BinsOf {
-    /// Brings boxes to the device, as many as it was prepared for, and their levels.
+    /// Uploads boxes, [`BinsOf::items`] of them, and their levels.
     pub fn write(&self, queue: &wgpu::Queue, boxes: &[DeviceBox], levels: &[Level]) {
         queue.write_buffer(&self.boxes, 0, bytemuck::cast_slice(boxes));
         queue.write_buffer(&self.levels, 0, bytemuck::cast_slice(levels));

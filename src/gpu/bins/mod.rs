@@ -1,4 +1,4 @@
-//! Building blocks of searches on the device: sums of all before, and cells with what lies in them.
+//! Primitives of searches on the device: exclusive scans, and the sorting of boxes into cells.
 
 mod boxes;
 mod buffers;
@@ -12,5 +12,5 @@ pub(crate) use cells::buckets;
 pub use cells::{Bins, BinsOf};
 pub use scan::{Scan, ScanOf};
 
-/// Invocations of a workgroup of every kernel of bins, scans and the broadphase.
+/// Invocations per workgroup of all kernels of bins, scans and the broadphase.
 pub const WORKGROUP: u32 = 64;

@@ -1,4 +1,4 @@
-//! Merrill & Grimshaw 2009, reduce-then-scan: replaces each value by the sum of all before it.
+//! Merrill & Grimshaw 2009, reduce-then-scan: replaces each value by the sum of all preceding values.
 
 use super::WORKGROUP;
 use crate::gpu::buffers::zeroed;
@@ -7,10 +7,10 @@ use crate::{
     gpu::{kernel::Kernel, link::Program},
 };
 
-/// Values that an invocation adds.
+/// Values per invocation.
 const RUN: u32 = 64;
 
-/// The kernels of an exclusive scan of `u32`. Sums that would pass 2³² − 1 stay there.
+/// The kernels of an exclusive scan of `u32`. Sums saturate at 2³² − 1.
 #[derive(Debug)]
 pub struct Scan {
     sum: Kernel,
@@ -20,7 +20,7 @@ pub struct Scan {
 /// The scan of one buffer, ready to be recorded.
 #[derive(Debug)]
 pub struct ScanOf {
-    /// From many runs to one: bindings of the way up, of the way down, and runs.
+    /// Levels from many runs to one: bindings of the upsweep and of the downsweep, and number of runs.
     steps: Vec<(wgpu::BindGroup, wgpu::BindGroup, u32)>,
     total: wgpu::Buffer,
 }
@@ -41,7 +41,7 @@ impl Scan {
     /// Prepares the scan of all of `values`, a storage buffer of `u32`.
     ///
     /// # Errors
-    /// [`crate::Error::Binding`] if a kernel is not as expected.
+    /// [`crate::Error::Binding`] if the bindings of a kernel differ from the expected ones.
     pub fn of(&self, device: &wgpu::Device, values: &wgpu::Buffer) -> Result<ScanOf> {
         let mut lengths = vec![(values.size() / 4) as u32];
         while lengths.len() == 1 || lengths[lengths.len() - 1] > 1 {
@@ -52,7 +52,7 @@ impl Scan {
             .map(|&n| zeroed(device, "sums of runs", 4 * u64::from(n)));
         let levels: Vec<_> = std::iter::once(values.clone()).chain(sums).collect();
         let total = levels[levels.len() - 1].clone();
-        // Nothing is before the last run; the total keeps its place.
+        // The top level has one run, which starts from zero; its sum remains as the total.
         let nothing = zeroed(device, "nothing", 4);
         let steps = (1..levels.len()).map(|k| {
             let (values, sums) = (&levels[k - 1], &levels[k]);
@@ -87,7 +87,7 @@ impl Scan {
 }
 
 impl ScanOf {
-    /// The sum of all values, one `u32`; `u32::MAX` says that it is at least that.
+    /// The sum of all values, one `u32`; `u32::MAX` if the sum is at least `u32::MAX`.
     pub fn total(&self) -> &wgpu::Buffer {
         &self.total
     }

@@ -1,13 +1,13 @@
 //! The files of `kernels/`, by name.
 
-/// A name and its text.
+/// Pairs of a file name and its text.
 macro_rules! sources {
     ($($folder:literal: $($name:literal),* $(,)?);* $(;)?) => {
         &[$($(($name, include_str!(concat!("../../../kernels/", $folder, "/", $name, ".wgsl")))),*),*]
     };
 }
 
-/// Every kernel file: its name without folder and ending, and its text.
+/// All kernel files: name without folder and extension, and text.
 pub const SOURCES: &[(&str, &str)] = sources! {
     "lattice":
         "neighbour_flags_stored", "neighbour_flags_none", "cell_force_constant", "cell_force_field",

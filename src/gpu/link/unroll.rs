@@ -1,13 +1,13 @@
-//! Writes marked loops out.
+//! Unrolls marked loops.
 
 use crate::{Error, Result};
 
 type Line = (u32, String);
 
-/// Replaces each `for (var q = 0u; q < 27u; q++) { // unroll` by its turns, inner loops too.
+/// Replaces each `for (var q = 0u; q < 27u; q++) { // unroll` by its iterations, including inner loops.
 ///
-/// Bounds and step (`q++` or `q += 2u`) are literals. Each turn is a block of its own, in which
-/// the counter is a literal.
+/// Bounds and step (`q++` or `q += 2u`) must be literals. Each iteration becomes a separate block in which the counter is a
+/// literal.
 pub fn unroll(lines: Vec<Line>, file: &str) -> Result<Vec<Line>> {
     let mut out = Vec::with_capacity(lines.len());
     let mut rest = lines.into_iter();

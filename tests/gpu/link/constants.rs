@@ -1,4 +1,4 @@
-//! Constants of kernels: all of them are set, and none is unused.
+//! Constants of kernels: all are set, and none is unused.
 
 use super::single_cells::SINGLE;
 use glam::DVec3;

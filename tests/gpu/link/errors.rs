@@ -32,7 +32,7 @@ fn errors_are_where_the_text_was_written() {
 }
 ";
     assert!(program(right).link().is_ok());
-    // After a loop that has become 27 blocks, then inside of it.
+    // After a loop that was unrolled into 27 blocks, then inside of it.
     let (file, line, message) = place(program(&right.replace("return s;", "return s +;")));
     assert_eq!((file.as_str(), line), ("unrolled", 6), "{message}");
     let (file, line, message) = place(program(&right.replace("return s;", "return t;")));
@@ -76,7 +76,7 @@ fn loops_to_unroll_are_closed_and_have_literal_bounds() {
     assert!(message.contains("0u; q < 27u"), "{message}");
 }
 
-/// Nested loops, steps, and a counter whose letter occurs in other words and as a component.
+/// Nested loops, steps, and a counter whose name occurs in other identifiers and as a component.
 #[test]
 fn unrolled_loops_are_the_loops() {
     let text = "fn f(u: vec4<f32>, qq: u32) -> u32 {

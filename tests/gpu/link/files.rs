@@ -52,8 +52,8 @@ fn files_stand_on_files_that_exist() {
     }
 }
 
-/// A file begins with a statement of its content; if it has an entry point, with the author and year of its formula, unless
-/// it only copies.
+/// A file begins with a statement of its content; files with an entry point begin with author and year of the method, unless
+/// they only copy.
 #[test]
 fn first_lines_say_what_a_file_is() {
     let year = |word: &str| {
@@ -76,7 +76,7 @@ fn first_lines_say_what_a_file_is() {
     }
 }
 
-/// Names in code spans of a cell of a table, up to the end of the identifier.
+/// Names in the code spans of a table cell, up to the end of the identifier.
 fn names(cell: &str) -> Vec<&str> {
     let spans = cell.split('`').skip(1).step_by(2);
     spans
@@ -116,7 +116,7 @@ fn the_table_of_slots_lists_each_slot_with_its_files_and_functions() {
     assert_eq!(listed, slots);
 }
 
-/// A constant that a caller forgets must be an error and not a plausible default.
+/// A constant that a caller forgets must cause an error, not take a plausible default.
 #[test]
 fn no_constant_has_a_default() {
     for (name, text) in SOURCES {

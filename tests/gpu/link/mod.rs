@@ -1,5 +1,5 @@
-//! Every kernel in every variant is valid WGSL with exactly the bindings that it needs; the linker gives the position of
-//! errors, and naga translates the kernels to the languages of all drivers.
+//! Every kernel in every variant is valid WGSL with exactly the bindings that it needs; the linker reports the position
+//! of errors, and naga translates the kernels to the languages of all drivers.
 
 mod constants;
 mod errors;

@@ -1,4 +1,4 @@
-//! The kernels of blocks, particles and broadphase in the languages of drivers.
+//! The kernels of blocks, particles and the broadphase in the languages of drivers.
 
 use super::translate::translate;
 use glam::DVec3;
@@ -13,7 +13,7 @@ use riprap::{
 };
 use std::collections::HashMap;
 
-/// Translates a kernel with 1 for each constant that callers must give.
+/// Translates a kernel with the value 1 for each required constant.
 fn plain(program: &Program, entry: &str) {
     let linked = program
         .link()

@@ -41,8 +41,8 @@ pub fn variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     })
 }
 
-/// A third of them. If at least five of the choices have three values or more, the values of any four choices occur in all
-/// combinations: an error of a slot also shows in combination with one or two others.
+/// A third of [`variants`]. If at least five of the choices have three values or more, the values of any four choices occur in
+/// all combinations, so that errors of a slot in combination with one or two others are detected.
 pub fn third_of_variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     variants(counts).filter(|variant| {
         let weighted = variant.iter().zip([1, 2].into_iter().cycle());
@@ -54,13 +54,13 @@ pub fn third_of_variants(counts: &[usize]) -> impl Iterator<Item = Vec<usize>> {
     })
 }
 
-/// Each number of bindings occurs with each value of each choice: the others run through all
-/// remainders of their sum.
+/// The number of bindings of a variant. Each number occurs with each value of each choice, because the sum of the other
+/// choices runs through all remainders.
 pub fn bindings_of(variant: &[usize]) -> u32 {
     BINDINGS[variant.iter().sum::<usize>() % BINDINGS.len()]
 }
 
-/// naga's last steps before a driver sees a shader: overrides become numbers, expressions of them are evaluated and
+/// Applies naga's last steps before a shader reaches the driver: overrides become numbers, their expressions are evaluated and
 /// validated, and the module is translated to the language of the driver.
 pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
     let grid = Grid::new(setup).unwrap();
@@ -78,7 +78,7 @@ pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
     translate(linked, entry, &numbers, setup.is_wide());
 }
 
-/// Names of the buffers except those of the populations, and the number of the latter.
+/// Names of the buffers other than the populations, and the number of population buffers.
 pub fn names(linked: &Linked, entry: &str) -> (BTreeSet<String>, usize) {
     let (populations, others): (Vec<_>, Vec<_>) = bindings(linked, entry)
         .unwrap()

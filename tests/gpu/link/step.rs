@@ -41,7 +41,7 @@ fn the_step_in_variants_of_all_slots() {
         }
         let flagged = !matches!(kind, BrickKind::All | BrickKind::Plain);
         let with_surface = surface && matches!(kind, BrickKind::Surface | BrickKind::Psm);
-        // Walls set flags, so that not all bricks are of plain fluid.
+        // Walls set flags, so that not all bricks are plain fluid.
         if wale == 2 && kind == BrickKind::All {
             continue;
         }

@@ -14,7 +14,7 @@ use std::collections::HashMap;
 /// Metal 2.0, which macOS has had since 10.13.
 const METAL: (u8, u8) = (2, 0);
 
-/// Translates a kernel with these values of its overrides to all languages; `wide` kernels have integers of 64 bits.
+/// Translates a kernel with the override values `numbers` to all languages; `wide` kernels use 64-bit integers.
 pub fn translate(linked: &Linked, entry: &str, numbers: &HashMap<String, f64>, wide: bool) {
     let numbers = numbers.iter().map(|(name, n)| (name.clone(), *n)).collect();
     let stage = (ShaderStage::Compute, entry);
@@ -26,7 +26,7 @@ pub fn translate(linked: &Linked, entry: &str, numbers: &HashMap<String, f64>, w
     )
     .unwrap_or_else(|error| panic!("{entry}: {error}"));
     let hlsl = direct(&module, &info, entry, wide);
-    // OpenGL ES has no integers of 64 bits, and no adapter of it offers them.
+    // OpenGL ES has no 64-bit integers, and no adapter with OpenGL ES offers them.
     let long = hlsl.as_ref().is_ok_and(|text| text.contains("uint64_t"));
     assert!(wide || !long, "{entry} has 64 bits that nobody asked for");
     let gles = gles(&module, &info, entry);
@@ -62,7 +62,7 @@ fn metal(module: &Module, info: &ModuleInfo, entry: &str) -> Written {
 }
 
 fn direct(module: &Module, info: &ModuleInfo, entry: &str, wide: bool) -> Result<String, String> {
-    // The compiler of Windows takes 5.1; 64 bits require DXC.
+    // The compiler of Windows accepts shader model 5.1; 64 bits require DXC.
     let shader_model = match wide {
         true => hlsl::ShaderModel::V6_0,
         false => hlsl::ShaderModel::V5_1,

@@ -13,7 +13,7 @@ use riprap::{
     gpu::kernel::Kernel,
     lattice::{Grid, Lattice, SolidOperator},
     psm::{
-        Frame, Motion, PLANES, SolidBlock, SolidCells, Tile, WRENCH, Walk, constants,
+        CellMapping, Frame, Motion, PLANES, SolidBlock, SolidCells, Tile, WRENCH, constants,
         reduce_blocks, reduce_tiles,
     },
     units::Units,
@@ -110,7 +110,7 @@ impl World {
         setup.solid_operator = Some(operator);
         if adapter.processor == Processor::Gpu {
             // The choice of bricks depends on the operator.
-            setup.suit_gpu();
+            setup.use_gpu_layout();
         }
         let state = sheared_noise(&setup)?;
         let mut lattice = Lattice::new(&device, setup)?;
@@ -255,7 +255,7 @@ fn sums(adapter: &mut Adapter<'_>) -> Result<(), Error> {
         ("wrenches", empty(WRENCH as u32 * blocks)),
     ];
     let named = buffers.each_ref().map(|(name, buffer)| (*name, buffer));
-    for walk in [Walk::Serial, Walk::Parallel] {
+    for walk in [CellMapping::Serial, CellMapping::Parallel] {
         let linked = reduce_tiles(&grid, walk).link()?;
         let constants = linked.constants_of(&constants(&grid));
         let kernel = Kernel::new(&device, &linked, "reduce_tiles", &constants)?;

@@ -78,9 +78,9 @@ impl Adapter<'_> {
         match self.processor {
             Processor::Cpu => {
                 setup.lanes = 4;
-                setup.suit_cpu(self.device.features());
+                setup.use_cpu_layout(self.device.features());
             }
-            Processor::Gpu => setup.suit_gpu(),
+            Processor::Gpu => setup.use_gpu_layout(),
         }
         setup
     }

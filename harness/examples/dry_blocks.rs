@@ -38,13 +38,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     // A push of 400 N at the top of the first one, for 0.3 s.
     let mut loads = vec![Load::default(); blocks.len()];
     loads[1] = Load::at(DVec3::X * 400.0, DVec3::Z * 0.5 * DOMINO.z);
-    blocks.load(&loads)?;
+    blocks.set_loads(&loads)?;
     let start = blocks.ledger();
     let mut fallen = [false; COUNT];
     for frame in 1..=150 {
         pollster::block_on(blocks.advance(&mut finder, 0.02 * f64::from(frame)))?;
         if frame == 15 {
-            blocks.load(&vec![Load::default(); blocks.len()])?;
+            blocks.set_loads(&vec![Load::default(); blocks.len()])?;
         }
         for (i, fallen) in fallen.iter_mut().enumerate() {
             let tilt = blocks.rotation(i + 1).angle_between(DQuat::IDENTITY);

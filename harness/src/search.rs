@@ -7,7 +7,7 @@ use riprap::{
     rock::broadphase::AutoBroadphase,
     scene::{
         Scene, Search,
-        build::{BlockSetup, LeftOut},
+        build::{BlockSetup, DiscardedPieces},
     },
     wgpu,
 };
@@ -53,8 +53,8 @@ pub fn located(error: Error, file: &Path) -> Error {
 }
 
 /// The pieces left out of rock masses, one line per mass.
-pub fn left_out(all: &[LeftOut]) -> impl Iterator<Item = String> {
-    let line = |lost: &LeftOut| {
+pub fn left_out(all: &[DiscardedPieces]) -> impl Iterator<Item = String> {
+    let line = |lost: &DiscardedPieces| {
         format!(
             "{} pieces of {}, {:.1} % of it: smaller or thinner than its smallest_volume and \
              smallest_thickness",

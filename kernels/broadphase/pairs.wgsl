@@ -10,7 +10,7 @@
 @group(0) @binding(2) var<storage, read> groups_of: array<vec2<u32>>;
 @group(0) @binding(3) var<storage, read> levels: array<Level>;
 
-struct Search {
+struct PairSearch {
     levels: u32,
     // Invocations per box: each tests SLICE of its candidates.
     slices: u32,
@@ -18,7 +18,7 @@ struct Search {
     first_pair: u32,
 }
 
-@group(0) @binding(4) var<uniform> search: Search;
+@group(0) @binding(4) var<uniform> search: PairSearch;
 
 // Candidates per invocation. Some adapters silently end loops after 65535 iterations; the loops over cells have at most 27
 // iterations on each of some 200 levels.

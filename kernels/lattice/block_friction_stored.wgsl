@@ -9,18 +9,18 @@
 
 // Modifies the moments s of the change by the solid, given the moments h before it; returns the share of the law in a full cell.
 fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
-    let code = get_reals(face_codes[slot * WORKGROUP + local]);
+    let code = unpack_reals(face_codes[slot * WORKGROUP + local]);
     let acts = code > Real(0.0);
     if (!mask_any(acts)) {
         return Real(0.0);
     }
     // In other cells the planes still hold the values of the previous step.
-    let share = select(Real(0.0), get_reals(read_psm(PLANE_SHARE, slot, local)), acts);
+    let share = select(Real(0.0), unpack_reals(read_psm(PLANE_SHARE, slot, local)), acts);
     let sixths = array<Real, 3>(v.x * (1.0 / 6.0), v.y * (1.0 / 6.0), v.z * (1.0 / 6.0));
     let stride = array<u32, 3>(1u, 3u, 9u);
     for (var along = 0u; along < 3u; along++) { // unroll
         let t = stride[along];
-        let stress = select(Real(0.0), get_reals(read_psm(PLANE_STRESS + along, slot, local)), acts);
+        let stress = select(Real(0.0), unpack_reals(read_psm(PLANE_STRESS + along, slot, local)), acts);
         let sixth = rho * sixths[along];
         for (var other = 1u; other < 3u; other++) { // unroll
             let normal = (along + other) % 3u;

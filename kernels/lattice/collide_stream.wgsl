@@ -40,7 +40,7 @@ fn collide_stream(
     var change: array<Real, 27>;
     relax(cell, psm, shear_rate, &d, &change);
     add_source(p, u, &change);
-    draw_to_solid(weights, &h, &change);
+    blend_with_solid(weights, &h, &change);
     from_moments(&change);
     for (var k = 0u; k < 27u; k++) { // unroll
         f[k] += change[k];

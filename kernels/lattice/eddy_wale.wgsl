@@ -21,7 +21,7 @@ fn eddy_viscosity_of_gradient(p: Place, cell: u32) -> Real {
 }
 
 fn component_gradient(p: Place, cell: u32, component: u32) -> Vector {
-    let here = get_reals(read_before(component, p.element));
+    let here = unpack_reals(read_before(component, p.element));
     return Vector(
         difference(cell, 0u, before(p, component, vec3(-1, 0, 0)), here, before(p, component, vec3(1, 0, 0))),
         difference(cell, 2u, before(p, component, vec3(0, -1, 0)), here, before(p, component, vec3(0, 1, 0))),
@@ -30,5 +30,5 @@ fn component_gradient(p: Place, cell: u32, component: u32) -> Vector {
 }
 
 fn before(p: Place, component: u32, c: vec3<i32>) -> Real {
-    return from_neighbour(p, c, get_reals(read_before(component, neighbour(p, c))));
+    return from_neighbour(p, c, unpack_reals(read_before(component, neighbour(p, c))));
 }

@@ -3,8 +3,8 @@
 
 fn body_force(p: Place) -> Vector {
     return Vector(
-        get_reals(read_force(0u, p.element)),
-        get_reals(read_force(1u, p.element)),
-        get_reals(read_force(2u, p.element)),
+        unpack_reals(read_force(0u, p.element)),
+        unpack_reals(read_force(1u, p.element)),
+        unpack_reals(read_force(2u, p.element)),
     );
 }

@@ -5,5 +5,5 @@
 @group(0) @binding(36) var<storage, read> near_wall_viscosity: array<Reals>;
 
 fn at_least_near_wall(p: Place, nu_t: Real) -> Real {
-    return max(nu_t, get_reals(near_wall_viscosity[p.element]));
+    return max(nu_t, unpack_reals(near_wall_viscosity[p.element]));
 }

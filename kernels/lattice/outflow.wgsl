@@ -32,7 +32,7 @@ fn inside(f: array<f32, 27>) -> Inside {
 }
 
 @compute @workgroup_size(64)
-fn remember(
+fn store_outflow(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
@@ -58,7 +58,7 @@ fn remember(
 }
 
 @compute @workgroup_size(64)
-fn flow_out(
+fn apply_outflow(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,

@@ -31,13 +31,13 @@ struct PsmCell {
 }
 
 fn psm_cell(slot: u32, local: u32) -> PsmCell {
-    let sum = decode_sum(get_reals(read_psm(PLANE_SUM, slot, local)));
+    let sum = decode_sum(unpack_reals(read_psm(PLANE_SUM, slot, local)));
     let velocity = Vector(
-        get_reals(read_psm(PLANE_VELOCITY, slot, local)),
-        get_reals(read_psm(PLANE_VELOCITY + 1u, slot, local)),
-        get_reals(read_psm(PLANE_VELOCITY + 2u, slot, local)),
+        unpack_reals(read_psm(PLANE_VELOCITY, slot, local)),
+        unpack_reals(read_psm(PLANE_VELOCITY + 1u, slot, local)),
+        unpack_reals(read_psm(PLANE_VELOCITY + 2u, slot, local)),
     );
-    let fraction = get_reals(read_psm(PLANE_FRACTION, slot, local));
+    let fraction = unpack_reals(read_psm(PLANE_FRACTION, slot, local));
     let blocks = PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint, sum.facing, sum.several);
     return with_surface(blocks, slot, local);
 }
@@ -114,16 +114,16 @@ fn collide_with_solid(
     // Values beyond the domain may be NaN; they must not count.
     let a = factor * rho;
     let each = 2.0 * closure / max(psm.shares, Real(1.0));
-    write_psm(PLANE_BETA, slot, local, put_reals(select(beta, Real(1.0), adjacent)));
-    write_psm(PLANE_A, slot, local, put_reals(select(select(Real(0.0), beta * a, fluid), excess, adjacent)));
-    write_psm(PLANE_G, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[1u] - a * v.x), fluid) + each * lost.x, u.x, adjacent)));
-    write_psm(PLANE_G + 1u, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[3u] - a * v.y), fluid) + each * lost.y, u.y, adjacent)));
-    write_psm(PLANE_G + 2u, slot, local, put_reals(select(select(Real(0.0), beta * ((*h)[9u] - a * v.z), fluid) + each * lost.z, u.z, adjacent)));
+    write_psm(PLANE_BETA, slot, local, pack_reals(select(beta, Real(1.0), adjacent)));
+    write_psm(PLANE_A, slot, local, pack_reals(select(select(Real(0.0), beta * a, fluid), excess, adjacent)));
+    write_psm(PLANE_G, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[1u] - a * v.x), fluid) + each * lost.x, u.x, adjacent)));
+    write_psm(PLANE_G + 1u, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[3u] - a * v.y), fluid) + each * lost.y, u.y, adjacent)));
+    write_psm(PLANE_G + 2u, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[9u] - a * v.z), fluid) + each * lost.z, u.z, adjacent)));
     return SolidWeights(weight, higher);
 }
 
 // Blends the change by the collision with the change by the solid.
-fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
+fn blend_with_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
     for (var k = 1u; k < 27u; k++) { // unroll
         let part = select(weights.higher, weights.momentum, Mask(k == 1u || k == 3u || k == 9u));
         (*change)[k] += part * ((*solid)[k] - (*change)[k]);

@@ -36,5 +36,5 @@ fn collide_with_solid(
     return SolidWeights(0u);
 }
 
-fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
+fn blend_with_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
 }

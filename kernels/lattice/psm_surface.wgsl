@@ -51,7 +51,7 @@ fn collide_with_solid(
 }
 
 // Blends the change by the collision with the change by the solid.
-fn draw_to_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
+fn blend_with_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
     for (var k = 1u; k < 27u; k++) { // unroll
         (*change)[k] += weights.all * ((*solid)[k] - (*change)[k]);
     }

@@ -3,10 +3,10 @@
 
 alias Reals = Real;
 
-fn get_reals(kept: Reals) -> Real {
+fn unpack_reals(kept: Reals) -> Real {
     return kept;
 }
 
-fn put_reals(value: Real) -> Reals {
+fn pack_reals(value: Real) -> Reals {
     return value;
 }

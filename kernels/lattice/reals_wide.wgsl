@@ -4,13 +4,13 @@
 
 alias Reals = vec2<u64>;
 
-fn get_reals(kept: Reals) -> Real {
+fn unpack_reals(kept: Reals) -> Real {
     let low = vec2<u32>(kept);
     let high = vec2<u32>(kept >> vec2<u32>(32u));
     return bitcast<vec4<f32>>(vec4(low.x, high.x, low.y, high.y));
 }
 
-fn put_reals(value: Real) -> Reals {
+fn pack_reals(value: Real) -> Reals {
     let bits = bitcast<vec4<u32>>(value);
     return vec2<u64>(bits.xz) | (vec2<u64>(bits.yw) << vec2<u32>(32u));
 }

@@ -2,9 +2,9 @@
 // needs $lanes, $reals
 
 fn decode(word: Word) -> Real {
-    return get_reals(word);
+    return unpack_reals(word);
 }
 
 fn encode(value: Real) -> Word {
-    return put_reals(value);
+    return pack_reals(value);
 }

@@ -6,7 +6,7 @@ fn store_velocity(p: Place, cell: u32, u: Vector) {
         return;
     }
     let stored = still_in_solid(cell, u);
-    write_after(0u, p.element, put_reals(stored.x));
-    write_after(1u, p.element, put_reals(stored.y));
-    write_after(2u, p.element, put_reals(stored.z));
+    write_after(0u, p.element, pack_reals(stored.x));
+    write_after(1u, p.element, pack_reals(stored.y));
+    write_after(2u, p.element, pack_reals(stored.z));
 }

@@ -16,6 +16,6 @@ fn surface_at(index: u32, local: u32) -> Surface {
     if (slot == 0u) {
         return Surface(Real(0.0), Mask(false));
     }
-    let kept = get_reals(surface_fractions[(slot - 1u) * WORKGROUP + local]);
+    let kept = unpack_reals(surface_fractions[(slot - 1u) * WORKGROUP + local]);
     return Surface(max(kept, Real(0.0)), kept != Real(0.0));
 }

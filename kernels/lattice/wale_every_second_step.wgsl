@@ -5,10 +5,10 @@
 
 fn resolved_eddy_viscosity(p: Place, cell: u32) -> Real {
     if (ODD == 1u) {
-        return get_reals(eddy_viscosity[p.element]);
+        return unpack_reals(eddy_viscosity[p.element]);
     }
     let nu_t = eddy_viscosity_of_gradient(p, cell);
-    eddy_viscosity[p.element] = put_reals(nu_t);
+    eddy_viscosity[p.element] = pack_reals(nu_t);
     return nu_t;
 }
 

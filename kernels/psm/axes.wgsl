@@ -10,7 +10,7 @@ fn main_axis(r: vec3<f32>) -> u32 {
 }
 
 // The axes in the order that makes `axis` the last one.
-fn turned(v: vec3<f32>, axis: u32) -> vec3<f32> {
+fn permuted(v: vec3<f32>, axis: u32) -> vec3<f32> {
     if (axis == 0u) {
         return v.yzx;
     }

@@ -54,7 +54,7 @@ fn ball_fraction(part: Part, cell: vec3<i32>) -> Fractions {
 fn ball_volume(part: Part, cell: vec3<i32>) -> f32 {
     // By symmetry, mapped to the octant of positive coordinates.
     let far = abs(centre_from(cell, part.base, part.fraction));
-    let at = turned(far, main_axis(far));
+    let at = permuted(far, main_axis(far));
     let power = ball_power(part, cell);
     // A cell around the centre of the sphere extends to both sides of the equator.
     let middle = at.z < 0.5;

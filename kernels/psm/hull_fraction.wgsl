@@ -42,7 +42,7 @@ fn column_length(part: Part, r: vec3<f32>, axis: u32, at: vec2<f32>) -> f32 {
     var high = 0.5;
     for (var k = 0u; k < part.faces; k++) {
         let face = faces[part.first_face + k];
-        let n = turned(face.xyz, axis);
+        let n = permuted(face.xyz, axis);
         let s = dot(face.xyz, r) - face.w + dot(n.xy, at);
         // A steeper face does not cross the column within the cell.
         if (abs(n.z) < 1e-6) {

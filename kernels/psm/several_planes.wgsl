@@ -72,18 +72,18 @@ fn twice_face(cuts: Cuts, count: u32, face: u32) -> f32 {
     let of_cell = face < 3u;
     let cut = cut_of(cuts, face - 3u);
     let axis = select(main_axis(cut.xyz), face, of_cell);
-    let n = select(turned(cut.xyz, axis), vec3(0.0, 0.0, 1.0), of_cell);
+    let n = select(permuted(cut.xyz, axis), vec3(0.0, 0.0, 1.0), of_cell);
     // Both sides are multiplied by the sign, so that the lines on the face keep their orientation.
     let own = select(vec4(n, cut.w) * sign(n.z), vec4(n, 1.0), of_cell);
     let number = select(face - 3u, 8u, of_cell);
     let next = select(count, 8u, of_cell);
-    let low = on_face(turned_planes(cuts.low, axis), own, LOW, number, next);
-    let high = on_face(turned_planes(cuts.high, axis), own, HIGH, number, next);
+    let low = on_face(permuted_planes(cuts.low, axis), own, LOW, number, next);
+    let high = on_face(permuted_planes(cuts.high, axis), own, HIGH, number, next);
     // Corrects for the projection of the face along the axis.
     return twice_area(low, high, select(count + 1u, count, of_cell)) / abs(n.z);
 }
 
-fn turned_planes(p: Planes, axis: u32) -> Planes {
+fn permuted_planes(p: Planes, axis: u32) -> Planes {
     if (axis == 0u) {
         return Planes(p.y, p.z, p.x, p.d);
     }

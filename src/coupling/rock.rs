@@ -191,7 +191,7 @@ impl Rock {
         if !self.moves() || self.is_held() {
             self.external_load.clone_from(&self.cell_load);
             if self.moves() {
-                self.blocks.wait(until)?;
+                self.blocks.skip_to(until)?;
             }
             return Ok(());
         }
@@ -203,7 +203,7 @@ impl Rock {
             .map(|block| self.load(block, &poses[block], dt))
             .collect();
         self.keep_sleeping_loads(&mut loads);
-        let moved = match self.blocks.load(&loads) {
+        let moved = match self.blocks.set_loads(&loads) {
             Ok(()) => self.blocks.advance(&mut self.broadphase, until).await,
             refused => refused,
         };

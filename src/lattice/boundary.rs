@@ -53,12 +53,16 @@ impl Lattice {
                 passes.extend(self.moving_pass(device, &moving, pass)?);
             }
         }
-        passes.extend(self.remember_passes(device, odd)?);
+        passes.extend(self.store_outflow_passes(device, odd)?);
         Ok(passes)
     }
 
     /// Passes that store the data of outflow faces for the next step; the present state must be complete.
-    pub(super) fn remember_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
+    pub(super) fn store_outflow_passes(
+        &self,
+        device: &wgpu::Device,
+        odd: u32,
+    ) -> Result<Vec<Dispatch>> {
         let mut passes = Vec::new();
         for (face, (axis, side, cells)) in self.geometry.open.iter().enumerate() {
             if let Face::Outflow { .. } = self.setup.faces[*axis][*side] {
@@ -101,7 +105,7 @@ impl Lattice {
         let (axis, side, _) = self.geometry.open[face];
         let (file, apply) = match self.setup.faces[axis][side] {
             Face::Pressure { .. } => ("pressure_face", "hold_pressure"),
-            Face::Outflow { .. } => ("outflow", "flow_out"),
+            Face::Outflow { .. } => ("outflow", "apply_outflow"),
             _ => return Ok(None),
         };
         if pass.first >= pass.end {
@@ -112,7 +116,7 @@ impl Lattice {
             program: &self.cell_program(file),
             entry: match action {
                 Action::Apply => apply,
-                Action::Remember => "remember",
+                Action::Remember => "store_outflow",
             },
             pass,
             buffers: &[

@@ -114,7 +114,7 @@ pub(super) fn make_buffers(
     bindings: Bindings,
 ) -> Buffers {
     let scalars = u64::from(grid.scalar_count());
-    let word = super::bytes_a_population(setup.storage);
+    let word = super::bytes_per_population(setup.storage);
     let spread = |label, count, bindings, bytes| {
         let planes = planes(count, bindings).into_iter();
         planes

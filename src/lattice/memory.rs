@@ -21,7 +21,7 @@ pub struct Memory {
 }
 
 /// Bytes of a population in memory.
-pub fn bytes_a_population(storage: Storage) -> u64 {
+pub fn bytes_per_population(storage: Storage) -> u64 {
     match storage {
         Storage::F32 => 4,
         Storage::F16 => 2,
@@ -47,7 +47,7 @@ impl Room<'_> {
     /// Bindings of the populations of so many scalars.
     fn populations(&self, scalars: u64) -> Option<u32> {
         // In 16 bits, too, scalars have an index of 32 bits.
-        let bytes = scalars * bytes_a_population(self.setup.storage);
+        let bytes = scalars * bytes_per_population(self.setup.storage);
         let indexed = u64::from(u32::MAX) / scalars.max(1) * bytes;
         let least = Self {
             binding: self.binding.min(indexed),
@@ -158,7 +158,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
         buffers: limits.max_storage_buffers_per_shader_stage,
     };
     let scalars = u64::from(grid.scalar_count());
-    let direction = scalars * bytes_a_population(setup.storage);
+    let direction = scalars * bytes_per_population(setup.storage);
     let (least, others) = (setup.bindings.map_or(1, |n| n.clamp(1, Q)), room.others(1));
     // A smaller grid mends neither of these.
     if least + others > room.buffers {

@@ -71,7 +71,7 @@ pub use fluid::{Lattice, face_name, in_plane};
 pub use geometry::{C, FaceCell, Geometry, Link, MovingCell};
 pub use grid::Grid;
 pub use inside::Inside;
-pub use memory::{Memory, bytes_a_population, memory};
+pub use memory::{Memory, bytes_per_population, memory};
 pub use observe::{Derived, Fault, Observer, Sums};
 #[doc(hidden)]
 pub use program::{BrickKind, collide_stream, constants, single_cells};
@@ -86,5 +86,5 @@ pub use stages::Stages;
 pub use start::State;
 pub use statistics::{Statistic, Statistics, StatisticsPass, StatisticsState};
 pub use synthetic_turbulence::{FaceMode, FourierMode, SyntheticTurbulence, TurbulentFace};
-pub use traffic::{bytes_a_cell, bytes_a_step};
+pub use traffic::{bytes_per_cell, bytes_per_step};
 pub use wall_model::{WallCell, WallStress, Walls};

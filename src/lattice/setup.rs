@@ -311,7 +311,7 @@ impl Setup {
     /// after the other, so that rows are the fastest: 1.25 times the speed of 16 × 2 × 2 on lavapipe.
     /// Invocations beyond the cells cost as much as others, so that rows are the longest with the fewest
     /// such invocations; rows that consist of padding only are skipped.
-    pub fn suit_cpu(&mut self, features: wgpu::Features) {
+    pub fn use_cpu_layout(&mut self, features: wgpu::Features) {
         // Eight invocations are a vector of such an adapter.
         let length = self.cells[0];
         let long = match length.div_ceil(32) {
@@ -327,7 +327,7 @@ impl Setup {
     /// Chooses the layout for a GPU: bricks that are rows of up to 128 elements, aligned to its memory lines. On an H200 a
     /// plain step of 128³ cells with rows of 128, 64 and 32 reaches 0.89, 0.85 and 0.73 of the speed of copies, with bricks of
     /// 16 × 2 × 2 0.59. With blocks in the fluid rows have 32 elements: longer ones contain more cells that no block reaches.
-    pub fn suit_gpu(&mut self) {
+    pub fn use_gpu_layout(&mut self) {
         let length = self.cells[0];
         // Invocations beyond the last cell are idle: at most one for eight cells.
         let fits = |long: &u32| (long - length % long) % long <= length / 8;

@@ -92,15 +92,15 @@ impl Lattice {
         }
         queue.submit([encoder.finish()]);
         self.set_near_wall(device, queue)?;
-        self.remember_faces(device, queue)
+        self.store_outflow_faces(device, queue)
     }
 
     /// Has outflow faces carry the present state to the next step.
-    fn remember_faces(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
+    fn store_outflow_faces(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
         for (_, carried) in &self.buffers.open_faces {
             queue.write_buffer(carried, 0, &vec![0; carried.size() as usize]);
         }
-        let passes = self.remember_passes(device, self.parity() as u32)?;
+        let passes = self.store_outflow_passes(device, self.parity() as u32)?;
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());

@@ -4,7 +4,7 @@
 //! of the grid gives them for nothing.
 
 use super::{
-    Force, Geometry, Grid, Setup, WallCell, WallStress, bytes_a_population,
+    Force, Geometry, Grid, Setup, WallCell, WallStress, bytes_per_population,
     geometry::{FaceCell, Link, MovingCell},
     populations::Q,
 };
@@ -15,8 +15,8 @@ const VECTOR: u64 = 12;
 /// Bytes that a step moves for a fluid cell away from walls: its populations in and out (216 in
 /// f32, 108 in 16 bits), the velocity and, if it is kept, the eddy viscosity for WALE (24 or 16), the force field in (12), and
 /// the least eddy viscosity of a wall model in (4).
-pub fn bytes_a_cell(setup: &Setup) -> u64 {
-    let populations = 2 * u64::from(Q) * bytes_a_population(setup.storage);
+pub fn bytes_per_cell(setup: &Setup) -> u64 {
+    let populations = 2 * u64::from(Q) * bytes_per_population(setup.storage);
     let force = match setup.force {
         Force::Field(_) => VECTOR,
         Force::None | Force::Constant(_) => 0,
@@ -36,8 +36,8 @@ pub(super) fn bytes_of_wale(setup: &Setup) -> u64 {
 
 /// Bytes that a step moves over the whole grid: those of its fluid cells, the flags and the list of
 /// the bricks, and the passes over walls and open faces.
-pub fn bytes_a_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
-    let word = bytes_a_population(setup.storage);
+pub fn bytes_per_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
+    let word = bytes_per_population(setup.storage);
     let count = |n: usize| n as u64;
     let brick: u64 = grid.brick.iter().map(|&n| u64::from(n)).product();
     // One u32 holds the flags of the cells of an element.
@@ -61,7 +61,7 @@ pub fn bytes_a_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
         u64::from(Q + cell.entering.count_ones()) * word + count(size_of::<FaceCell>())
     };
     let open: u64 = geometry.open.iter().flat_map(|(_, _, c)| c).map(open).sum();
-    geometry.fluid_cells * bytes_a_cell(setup)
+    geometry.fluid_cells * bytes_per_cell(setup)
         + flags
         + lists
         + surface
@@ -78,16 +78,16 @@ mod tests {
 
     fn step(setup: &Setup) -> u64 {
         let grid = Grid::new(setup).unwrap();
-        bytes_a_step(setup, &grid, &Geometry::new(setup, &grid))
+        bytes_per_step(setup, &grid, &Geometry::new(setup, &grid))
     }
 
     #[test]
     fn a_plain_cell_moves_its_populations_in_and_out() {
         let mut setup = Setup::periodic([8; 3], 0.01);
-        assert_eq!(bytes_a_cell(&setup), 216);
+        assert_eq!(bytes_per_cell(&setup), 216);
         assert_eq!(step(&setup), 512 * 216);
         (setup.storage, setup.lanes) = (Storage::F16, 4);
-        assert_eq!(bytes_a_cell(&setup), 108);
+        assert_eq!(bytes_per_cell(&setup), 108);
         assert_eq!(step(&setup), 512 * 108);
     }
 
@@ -95,13 +95,13 @@ mod tests {
     fn what_a_setup_adds_is_counted() {
         let mut setup = Setup::periodic([8; 3], 0.01);
         setup.force = Force::Constant([1e-6, 0.0, 0.0]);
-        assert_eq!(bytes_a_cell(&setup), 216);
+        assert_eq!(bytes_per_cell(&setup), 216);
         setup.wale = Some(0.5);
-        assert_eq!(bytes_a_cell(&setup), 232);
+        assert_eq!(bytes_per_cell(&setup), 232);
         setup.wale_interval = 1;
-        assert_eq!(bytes_a_cell(&setup), 240);
+        assert_eq!(bytes_per_cell(&setup), 240);
         setup.force = Force::Field(vec![[0.0; 3]; 512]);
-        assert_eq!(bytes_a_cell(&setup), 252);
+        assert_eq!(bytes_per_cell(&setup), 252);
     }
 
     #[test]

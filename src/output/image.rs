@@ -6,7 +6,7 @@ use glam::DVec3;
 
 /// Values on the cells of a box, x running fastest, then y, then z.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Image {
+pub struct ImageData {
     /// Lower corner of the domain (of the first cell, not its centre), m.
     pub origin: [f64; 3],
     /// Cell size, m.
@@ -48,7 +48,7 @@ impl Array {
     }
 }
 
-impl Image {
+impl ImageData {
     /// The array called `name`.
     pub fn array(&self, name: &str) -> Option<&Array> {
         self.arrays.iter().find(|array| array.name == name)
@@ -155,7 +155,7 @@ impl Image {
 /// order with two fluid cells in a row on that side, first order with one, zero with none.
 #[derive(Clone, Copy, Debug)]
 pub struct VelocityQuantities<'a> {
-    image: &'a Image,
+    image: &'a ImageData,
     velocity: &'a [f32],
     solid: Option<&'a [f32]>,
     periodic: [bool; 3],
@@ -166,7 +166,7 @@ impl<'a> VelocityQuantities<'a> {
     ///
     /// `None` if the image has no array `velocity` of three components on every cell, or its
     /// array `solid` does not fill the cells.
-    pub fn new(image: &'a Image, periodic: [bool; 3]) -> Option<Self> {
+    pub fn new(image: &'a ImageData, periodic: [bool; 3]) -> Option<Self> {
         let velocity = image
             .array("velocity")
             .filter(|array| array.components == 3)?;

@@ -1,15 +1,15 @@
 //! Output files: VTI, VTU, VTP and PVD for ParaView, CSV for probes.
 //!
-//! A run fills an [`Image`] with cell data and passes it to [`write_vti`]; a [`Pvd`] collects the
+//! A run fills an [`ImageData`] with cell data and passes it to [`write_vti`]; a [`Pvd`] collects the
 //! images over time, a [`Csv`] the values of a probe. An image or a collection replaces its
 //! predecessor only when complete. [`Pvd::resume`] and [`Csv::resume`] continue after a
 //! restart as if the run had not been interrupted.
 //!
 //! ```
-//! use riprap::output::{Array, Image, write_vti};
+//! use riprap::output::{Array, ImageData, write_vti};
 //! let folder = std::env::temp_dir().join(format!("riprap_doc_{}", std::process::id()));
 //! std::fs::create_dir_all(&folder).expect("a temporary folder");
-//! let image = Image {
+//! let image = ImageData {
 //!     origin: [0.0; 3],
 //!     spacing: 0.5,
 //!     cells: [2, 1, 1],
@@ -27,7 +27,7 @@ mod series;
 mod vtk;
 
 pub use csv::{Csv, Table};
-pub use image::{Array, Image, VelocityQuantities};
+pub use image::{Array, ImageData, VelocityQuantities};
 pub use series::Series;
 pub use vtk::{Cloud, Polyhedra, Pvd, Surface, write_surface, write_vti, write_vtp, write_vtu};
 

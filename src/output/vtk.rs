@@ -1,6 +1,6 @@
 //! VTK XML files (format version 1.0) of cells, points, polygons and polyhedra: raw binary arrays appended after the XML.
 
-use super::{Array, Image, failure, replace};
+use super::{Array, ImageData, failure, replace};
 use crate::{Error, Result};
 use std::{
     fmt::Write as _,
@@ -13,7 +13,7 @@ use std::{
 ///
 /// # Errors
 /// [`Error::File`] if an array does not fill the cells or the file cannot be written.
-pub fn write_vti(path: impl AsRef<Path>, image: &Image) -> Result<()> {
+pub fn write_vti(path: impl AsRef<Path>, image: &ImageData) -> Result<()> {
     let path = path.as_ref();
     if let Some(fault) = image.fault() {
         return Err(Error::file(path, format!("cannot write: {fault}")));

@@ -1,7 +1,7 @@
 //! The kernels of loads on faces, with their own buffers.
 
 use super::{
-    FACE_LOAD, FaceJob, Plan, Tile, Walk,
+    CellMapping, FACE_LOAD, FaceJob, Plan, Tile,
     kernels::{Growing, Kernels},
     program,
     tiles::{Outline, SKIN, imaged},
@@ -27,7 +27,7 @@ const REACH: f64 = 1.9;
 pub(super) struct FaceSums {
     /// Blocks that request them, in the order of the device, ascending.
     pub requested: Vec<usize>,
-    walk: Walk,
+    walk: CellMapping,
     reduce: Kernel,
     sum: Kernel,
     binds: Option<[wgpu::BindGroup; 2]>,
@@ -42,7 +42,7 @@ impl FaceSums {
     pub fn new(
         device: &wgpu::Device,
         lattice: &Lattice,
-        walk: Walk,
+        walk: CellMapping,
         requested: Vec<usize>,
     ) -> Result<Self> {
         let grid = lattice.grid();

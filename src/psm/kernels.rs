@@ -1,6 +1,6 @@
 //! The kernels of blocks in the fluid, and their shared buffers.
 
-use super::{Forms, Plan, Tile, WHOLE, WRENCH, Walk, program};
+use super::{CellMapping, Forms, Plan, Tile, WHOLE, WRENCH, program};
 use crate::{
     Error, Result,
     gpu::{
@@ -85,7 +85,7 @@ const KERNELS: [(&str, Option<&str>); 5] = [
 ];
 /// Cells of tiles per cell at an edge, for blocks of some ten cells: if there are more edge cells, an invocation of
 /// `voxelise_edges` computes several.
-const CELLS_AN_EDGE: u64 = 16;
+const CELLS_PER_EDGE: u64 = 16;
 /// Number of loop iterations per invocation that every adapter executes: some end loops after 65 535 without an error.
 const MAX_LOOP_ITERATIONS: u64 = 60_000;
 /// Marks an unused entry of a list.
@@ -109,7 +109,7 @@ pub(super) struct Kernels {
     workgroup: u64,
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
     groups: [u32; 5],
-    pub walk: Walk,
+    pub walk: CellMapping,
     /// Largest number of cells per invocation of `voxelise_edges`.
     at_once: u64,
 }
@@ -121,8 +121,8 @@ impl Kernels {
         // Barriers are slow on a CPU, which processes the invocations of a workgroup one after the other.
         let processor = lattice.setup().processor;
         let walk = match processor.unwrap_or_else(|| Processor::of(&device.adapter_info())) {
-            Processor::Cpu => Walk::Serial,
-            Processor::Gpu => Walk::Parallel,
+            Processor::Cpu => CellMapping::Serial,
+            Processor::Gpu => CellMapping::Parallel,
         };
         let weight = lattice.setup().weight();
         let programs = [
@@ -149,7 +149,7 @@ impl Kernels {
             workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
             groups: [0; 5],
             walk,
-            at_once: (MAX_LOOP_ITERATIONS / loop_iterations(faces)).clamp(1, CELLS_AN_EDGE),
+            at_once: (MAX_LOOP_ITERATIONS / loop_iterations(faces)).clamp(1, CELLS_PER_EDGE),
         };
         kernels.bind(device, lattice)?;
         Ok(kernels)
@@ -189,8 +189,8 @@ impl Kernels {
             words(tiles + MAX_FOLD_SURPLUS),
             words(plan.lane_count() + MAX_FOLD_SURPLUS),
             words(tiles) * self.workgroup + 4,
-            words(tiles.next_multiple_of(self.walk.segments_a_group()))
-                + words(self.walk.segments_a_group() * tiles.div_ceil(MAX_GROUPS as usize)),
+            words(tiles.next_multiple_of(self.walk.segments_per_workgroup()))
+                + words(self.walk.segments_per_workgroup() * tiles.div_ceil(MAX_GROUPS as usize)),
         ];
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
             buffer.hold(device, bytes)?;
@@ -255,7 +255,11 @@ impl Kernels {
     pub fn set_sums(&mut self, queue: &wgpu::Queue, mut segments: Vec<u32>, block_first: &[u32]) {
         self.groups[3] = self.walk.groups(segments.len() as u32);
         self.groups[4] = block_first.len() as u32 - 1;
-        pad(&mut segments, self.groups[3], self.walk.segments_a_group());
+        pad(
+            &mut segments,
+            self.groups[3],
+            self.walk.segments_per_workgroup(),
+        );
         for (name, list) in [("segments", &segments[..]), ("block_first", block_first)] {
             queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(list));
         }

@@ -74,8 +74,8 @@ pub(crate) use near_cells::{near_cells, outline};
 pub(crate) use program::sphere_growth;
 #[doc(hidden)]
 pub use program::{
-    Forms, MAX_FACES, MAX_STORAGE_BUFFERS, WHOLE, Walk, combine_parts, constants, reduce_blocks,
-    reduce_faces, reduce_tiles, sum_faces, voxelise, voxelise_edges,
+    CellMapping, Forms, MAX_FACES, MAX_STORAGE_BUFFERS, WHOLE, combine_parts, constants,
+    reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise, voxelise_edges,
 };
 pub use solid_cells::{CellWork, SolidBlock, SolidCells};
 #[doc(hidden)]

@@ -19,7 +19,7 @@ pub const WHOLE: u32 = 1 << 31;
 
 /// Mapping of invocations to the cells of a tile. Both give the same results, sums up to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Walk {
+pub enum CellMapping {
     /// One vector of invocations per tile, and sums by one invocation without barriers: for CPU adapters, which load the data
     /// of a tile again for each invocation.
     Serial,
@@ -61,14 +61,14 @@ const BUSY: u32 = 8192;
 /// Number of invocations that a CPU adapter executes as one vector.
 const VECTOR: u32 = 8;
 
-impl Walk {
+impl CellMapping {
     /// Workgroups of `reduce_tiles` for a number of segments, and of `reduce_faces` for a number of jobs.
     pub fn groups(self, sums: u32) -> u32 {
-        sums.div_ceil(self.segments_a_group() as u32)
+        sums.div_ceil(self.segments_per_workgroup() as u32)
     }
 
     /// Segments of a workgroup of `reduce_tiles`.
-    pub(super) fn segments_a_group(self) -> usize {
+    pub(super) fn segments_per_workgroup(self) -> usize {
         match self {
             Self::Serial => 64,
             Self::Parallel => 1,
@@ -86,7 +86,7 @@ impl Walk {
 
 /// `voxelise`: one workgroup per tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `solid_fractions`, `edges`, whose
 /// first word must be 0 before, and which is one word longer than `solid_fractions`.
-pub fn voxelise(grid: &Grid, walk: Walk, forms: Forms, weight: SolidWeight) -> Program {
+pub fn voxelise(grid: &Grid, walk: CellMapping, forms: Forms, weight: SolidWeight) -> Program {
     let [ball, hull] = forms.files("ball_quick", "hull_quick");
     walked("voxelise", grid, walk)
         .slot("effective", effective(weight))
@@ -129,17 +129,17 @@ pub(super) fn spread(program: Program, lattice: &Lattice) -> Program {
 
 /// `combine_parts`: one workgroup per lane of a brick with blocks, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
 /// `motions`, `lane_first`, `lane_tiles`, `solid_fractions`, `psm_planes_0`.
-pub fn combine_parts(grid: &Grid, walk: Walk) -> Program {
+pub fn combine_parts(grid: &Grid, walk: CellMapping) -> Program {
     walked("combine_parts", grid, walk)
 }
 
-/// `reduce_tiles`: [`Walk::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes_0`, `segments`,
+/// `reduce_tiles`: [`CellMapping::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes_0`, `segments`,
 /// and `partials`, [`super::WRENCH`] numbers per segment. A segment is a range of consecutive tiles of one block: the number
 /// of the first + 2²⁸ · (their count - 1), or all bits for none.
-pub fn reduce_tiles(grid: &Grid, walk: Walk) -> Program {
+pub fn reduce_tiles(grid: &Grid, walk: CellMapping) -> Program {
     let file = match walk {
-        Walk::Serial => "tile_sum_serial",
-        Walk::Parallel => "tile_sum_parallel",
+        CellMapping::Serial => "tile_sum_serial",
+        CellMapping::Parallel => "tile_sum_parallel",
     };
     base("reduce_tiles", grid).slot("tile_sum", file)
 }
@@ -149,16 +149,16 @@ pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
 }
 
-/// `reduce_faces`: [`Walk::groups`] workgroups. For each face it sums over the layer of cells along it, one cell thick, which begins where cells no longer
+/// `reduce_faces`: [`CellMapping::groups`] workgroups. For each face it sums over the layer of cells along it, one cell thick, which begins where cells no longer
 /// intersect its plane. A cell is fluid unless a wall, a solid or another block fills part of it; it is excluded if another part of
 /// the same block lies over the face or fills part of the cell. The state is that at the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
 /// a face in sequence), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers per job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
-pub fn reduce_faces(grid: &Grid, walk: Walk) -> Program {
+pub fn reduce_faces(grid: &Grid, walk: CellMapping) -> Program {
     let file = match walk {
-        Walk::Serial => "face_sum_serial",
-        Walk::Parallel => "face_sum_parallel",
+        CellMapping::Serial => "face_sum_serial",
+        CellMapping::Parallel => "face_sum_parallel",
     };
     base("reduce_faces", grid).slot("face_sum", file)
 }
@@ -187,11 +187,11 @@ fn base(entry: &str, grid: &Grid) -> Program {
 }
 
 /// The same of a kernel whose invocations share the cells of a tile.
-fn walked(entry: &str, grid: &Grid, walk: Walk) -> Program {
+fn walked(entry: &str, grid: &Grid, walk: CellMapping) -> Program {
     let cells = cells(grid);
     let invocations = match walk {
-        Walk::Serial => cells.min(VECTOR),
-        Walk::Parallel => cells,
+        CellMapping::Serial => cells.min(VECTOR),
+        CellMapping::Parallel => cells,
     };
     let text = format!("const WORKGROUP = {cells}u;\nconst INVOCATIONS = {invocations}u;\n");
     Program::new(entry)

@@ -44,7 +44,7 @@ use std::time::Instant;
 ///     ..Setup::default()
 /// })?;
 /// for _ in 0..100 {
-///     if blocks.wants_pairs() {
+///     if blocks.needs_pairs() {
 ///         blocks.set_pairs(Vec::new())?; // It is alone.
 ///     }
 ///     blocks.step()?;
@@ -341,7 +341,7 @@ impl Blocks {
     ///
     /// # Errors
     /// [`Error::Argument`] if their number differs from that of the blocks, or one is not finite.
-    pub fn load(&mut self, loads: &[Load]) -> Result<()> {
+    pub fn set_loads(&mut self, loads: &[Load]) -> Result<()> {
         if loads.len() != self.len() {
             let message = format!("{} loads for {} blocks", loads.len(), self.len());
             return Err(Error::argument("loads", message));
@@ -377,7 +377,7 @@ impl Blocks {
     pub async fn advance(&mut self, broadphase: &mut impl Broadphase, until: f64) -> Result<()> {
         is_time(until)?;
         while self.time < until {
-            if self.wants_pairs() {
+            if self.needs_pairs() {
                 let start = self.step_times.map(|_| Instant::now());
                 let pairs = broadphase.pairs(&self.aabbs()).await?;
                 self.set_pairs(pairs)?;
@@ -404,7 +404,7 @@ impl Blocks {
     ///
     /// # Errors
     /// [`Error::Argument`] if that time is not finite.
-    pub fn wait(&mut self, until: f64) -> Result<()> {
+    pub fn skip_to(&mut self, until: f64) -> Result<()> {
         is_time(until)?;
         self.time = self.time.max(until);
         Ok(())

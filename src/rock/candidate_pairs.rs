@@ -280,7 +280,7 @@ impl Blocks {
     }
 
     /// Whether a step needs a new list of pairs first, because a block has moved by half the skin or will do so in this step.
-    pub fn wants_pairs(&self) -> bool {
+    pub fn needs_pairs(&self) -> bool {
         self.skin_references.len() < self.bodies.len()
             || skin_exceeded(
                 &self.bodies,

@@ -29,7 +29,7 @@ impl Blocks {
         let mut resolver = Resolver::new(Options::default());
         let mut left = Vec::new();
         for sweep in 0..=sweeps {
-            if self.wants_pairs() {
+            if self.needs_pairs() {
                 let pairs = broadphase.pairs(&self.aabbs()).await?;
                 self.set_pairs(pairs)?;
             }

@@ -187,7 +187,7 @@ impl Block {
     }
 
     /// The same block, rotated by `rotation`.
-    pub fn turned(self, rotation: DQuat) -> Self {
+    pub fn rotated(self, rotation: DQuat) -> Self {
         Self { rotation, ..self }
     }
 }

@@ -89,7 +89,7 @@ impl Blocks {
     }
 
     fn step_by(&mut self, substep: Substep) -> Result<()> {
-        if self.wants_pairs() {
+        if self.needs_pairs() {
             let message =
                 "a step needs new pairs first: find those of aabbs() and pass them to set_pairs";
             return Err(Error::argument("pairs", message));

@@ -46,12 +46,12 @@
 //! assert_eq!(uplift(weight, -0.25 * weight), 4.0);
 //! ```
 
+mod safety_factors;
 mod sliding;
-mod standing;
 mod toppling;
 
+pub use safety_factors::{SafetyFactors, Supports};
 pub use sliding::{Mode, Plane, Sliding, sliding};
-pub use standing::{Footing, Standing};
 pub use toppling::{Base, Wrench, toppling};
 
 use glam::DVec3;

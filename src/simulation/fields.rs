@@ -5,7 +5,7 @@ use crate::{
     Error, Result,
     coupling::{Coupled, Rock},
     lattice::Derived,
-    output::{Array, Cloud, Image},
+    output::{Array, Cloud, ImageData},
     scene::Field,
     sph::Water,
 };
@@ -34,8 +34,8 @@ impl Simulation {
     ///
     /// # Errors
     /// If the scene has no fluid on a lattice, the device is lost or cannot hold a field.
-    pub async fn image(&mut self, fields: &[Field]) -> Result<Image> {
-        Ok(Image {
+    pub async fn image(&mut self, fields: &[Field]) -> Result<ImageData> {
+        Ok(ImageData {
             origin: self.scene.domain.origin,
             spacing: self.scene.domain.cell,
             cells: self.scene.cells().map(|n| n as usize),

@@ -59,7 +59,7 @@ pub use layout::{BodyMotion, Clock, Hull, Particle, ReferencePosition, WallWork}
 #[doc(hidden)]
 pub use neighbour_lists::{CountingSort, SortedParticles};
 pub use particle_lattice::ParticleLattice;
-pub use probes::Gauges;
+pub use probes::Interpolator;
 #[doc(hidden)]
 pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, kernels_of, program};
 pub use setup::{Body, EquationOfState, NeighbourSearch, Scheme, Setup, Side, Wendland};

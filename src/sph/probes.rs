@@ -18,7 +18,7 @@ const DROP_FRACTION: f64 = 0.25;
 
 /// Particles with the kernel that interpolates them.
 #[derive(Clone, Copy, Debug)]
-pub struct Gauges<'a> {
+pub struct Interpolator<'a> {
     /// Positions of the particles, m.
     pub positions: &'a [DVec3],
     /// Interpolation kernel.
@@ -31,8 +31,8 @@ pub struct Gauges<'a> {
     pub plane: bool,
 }
 
-impl<'a> Gauges<'a> {
-    /// Gauges for particles at `positions` (m).
+impl<'a> Interpolator<'a> {
+    /// An interpolator of particles at `positions` (m).
     pub fn new(setup: &Setup, positions: &'a [DVec3]) -> Self {
         let period = |axis: usize| match setup.faces[axis][0] {
             Side::Periodic => setup.size[axis],
@@ -48,8 +48,8 @@ impl<'a> Gauges<'a> {
     }
 
     /// The same gauges for other particles.
-    fn with_positions<'b>(&self, positions: &'b [DVec3]) -> Gauges<'b> {
-        Gauges {
+    fn with_positions<'b>(&self, positions: &'b [DVec3]) -> Interpolator<'b> {
+        Interpolator {
             positions,
             kernel: self.kernel,
             ..*self

@@ -412,7 +412,7 @@ fn grids_of_more_cells_than_can_be_counted_are_refused() {
     let (device, _) = nothing();
     for cells in [[1 << 22, 1 << 21, 1 << 21], [u32::MAX; 3]] {
         let mut setup = Setup::periodic(cells, 0.01);
-        setup.suit_cpu(wgpu::Features::empty());
+        setup.use_cpu_layout(wgpu::Features::empty());
         for walls in [false, true] {
             if walls {
                 setup.faces = [const { [Face::FreeSlip, Face::FreeSlip] }; 3];

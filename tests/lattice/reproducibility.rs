@@ -83,7 +83,7 @@ fn lanes_bindings_bricks_and_workgroups_change_no_bit() {
     others[5].brick = [4, 4, 2];
     (others[6].lanes, others[6].lane_axis) = (4, 1);
     others[7].row_alignment = 32;
-    others[8].suit_gpu();
+    others[8].use_gpu_layout();
     for other in others {
         let what = format!(
             "{} lanes along {}, {:?} bindings, brick {:?}, rows of a multiple of {}",

@@ -24,7 +24,7 @@ fn rows_for_cpus_leave_few_invocations_beyond_the_grid() {
         if wall {
             setup.faces[0] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
         }
-        setup.suit_cpu(wgpu::Features::empty());
+        setup.use_cpu_layout(wgpu::Features::empty());
         assert_eq!(setup.brick[0], row, "{cells} cells, walls: {wall}");
         assert!(setup.brick.iter().product::<u32>() >= 32);
     }
@@ -46,11 +46,11 @@ fn rows_for_gpus_are_long_and_aligned() {
     ] {
         let mut setup = Setup::periodic([cells, 3, 3], 0.01);
         setup.solid_operator = blocks.then_some(SolidOperator::Holdych);
-        setup.suit_gpu();
+        setup.use_gpu_layout();
         assert_eq!(setup.brick, brick, "{cells} cells, blocks: {blocks}");
     }
     let mut setup = Setup::periodic([97, 3, 3], 0.01);
-    setup.suit_gpu();
+    setup.use_gpu_layout();
     assert_eq!(Grid::new(&setup).unwrap().elements, [97, 3, 3]);
     setup.faces[0] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
     assert_eq!(Grid::new(&setup).unwrap().elements, [128, 3, 3]);

@@ -1,7 +1,7 @@
 //! Files written by `riprap::output`: read back by VTK, restarted, and refused by the system.
 
 use kit::assert_contains;
-use riprap::output::{Array, Csv, Image, Pvd, Table, write_vti};
+use riprap::output::{Array, Csv, ImageData, Pvd, Table, write_vti};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -38,9 +38,9 @@ fn read_with_vtk(path: &Path) -> serde_json::Value {
 }
 
 /// An image with different sizes along each axis, so that swapped axes are detected.
-fn example() -> Image {
+fn example() -> ImageData {
     let cells = [3, 4, 5];
-    let mut image = Image {
+    let mut image = ImageData {
         origin: [-1.5, 0.25, 10.0],
         spacing: 0.125,
         cells,

@@ -1,11 +1,11 @@
 //! Quantities that `riprap::output` computes from an image: values between cells, vorticity, Q.
 
-use riprap::output::{Array, Image, VelocityQuantities};
+use riprap::output::{Array, ImageData, VelocityQuantities};
 use std::f64::consts::TAU;
 
 #[test]
 fn a_sample_is_linear_between_centres_clamped_and_blind_to_solids() {
-    let mut image = Image {
+    let mut image = ImageData {
         origin: [1.0, 0.0, 0.0],
         spacing: 0.5,
         cells: [4, 3, 2],
@@ -29,7 +29,7 @@ fn a_sample_is_linear_between_centres_clamped_and_blind_to_solids() {
         components: 1,
         values,
     });
-    let at = |image: &Image, point| image.sample("p", point).map(|values| values[0]);
+    let at = |image: &ImageData, point| image.sample("p", point).map(|values| values[0]);
     assert_eq!(
         at(&image, [1.5, 0.625, 0.5]),
         Some(linear([1.5, 0.625, 0.5]))
@@ -55,7 +55,7 @@ fn a_sample_is_linear_between_centres_clamped_and_blind_to_solids() {
 }
 
 /// A Taylor–Green vortex u = (sin x cos y, −cos x sin y, 0) on `cells` per period, 2π m long.
-fn vortex(cells: usize, solid: impl Fn(f64, f64) -> bool) -> Image {
+fn vortex(cells: usize, solid: impl Fn(f64, f64) -> bool) -> ImageData {
     let spacing = TAU / cells as f64;
     let mut velocity = Vec::new();
     let mut mask = Vec::new();
@@ -66,7 +66,7 @@ fn vortex(cells: usize, solid: impl Fn(f64, f64) -> bool) -> Image {
             mask.push(f32::from(solid(x, y)));
         }
     }
-    Image {
+    ImageData {
         origin: [0.0; 3],
         spacing,
         cells: [cells, cells, 1],
@@ -134,7 +134,7 @@ fn a_gradient_uses_what_neighbours_there_are() {
     // u_x = x² on three cells of 1 m, then a solid, then one fluid cell between solids.
     let u = [0.25_f32, 2.25, 6.25, 99.0, 5.0, 99.0];
     let solid = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 1.0];
-    let image = Image {
+    let image = ImageData {
         origin: [0.0; 3],
         spacing: 1.0,
         cells: [6, 1, 1],

@@ -7,8 +7,8 @@ use crate::{
 use glam::{DMat3, DVec3};
 use kit::{POISON, Random, Workbench, assert_near};
 use riprap::psm::{
-    FACING_SUM, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, SHARED_SUM, TOUCHES, Tile,
-    WHOLE, Walk, combine_parts, constants,
+    CellMapping, FACING_SUM, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, SHARED_SUM,
+    TOUCHES, Tile, WHOLE, combine_parts, constants,
 };
 use std::collections::BTreeSet;
 
@@ -195,7 +195,7 @@ fn shares_add_and_velocities_are_their_mean() {
             ("psm_planes_0", &saturation),
         ];
         // Alternates between both kinds of walk.
-        let walk = [Walk::Serial, Walk::Parallel][(seed % 2) as usize];
+        let walk = [CellMapping::Serial, CellMapping::Parallel][(seed % 2) as usize];
         let program = combine_parts(&tiling.grid, walk);
         let numbers = constants(&tiling.grid);
         bench.run(

@@ -10,7 +10,9 @@ use glam::{DQuat, DVec3};
 use kit::{POISON, Random, Workbench, assert_relative};
 use riprap::{
     geometry::{HalfSpace, Polyhedron},
-    psm::{FACE_LOAD, FaceJob, NEAR, PLANES, Tile, Walk, constants, reduce_faces, sum_faces},
+    psm::{
+        CellMapping, FACE_LOAD, FaceJob, NEAR, PLANES, Tile, constants, reduce_faces, sum_faces,
+    },
 };
 
 /// Viscosity of the fluid, cells² per step.
@@ -167,7 +169,7 @@ impl Case {
     }
 
     /// The loads on each face, computed by the kernels.
-    fn run(&self, walk: Walk, width: Option<u32>) -> Vec<f32> {
+    fn run(&self, walk: CellMapping, width: Option<u32>) -> Vec<f32> {
         let bench = Workbench::new(width);
         let (mut jobs, mut face_first) = (Vec::new(), vec![0]);
         for (part, face) in self.faces() {
@@ -228,7 +230,7 @@ fn blocks(noise: &mut Random) -> Vec<Placed> {
 
 fn check(case: &Case, width: Option<u32>) {
     let expected = case.twin();
-    for walk in [Walk::Serial, Walk::Parallel] {
+    for walk in [CellMapping::Serial, CellMapping::Parallel] {
         let found = case.run(walk, width);
         assert_eq!(found.len(), FACE_LOAD * expected.len());
         for (face, (found, expected)) in found.chunks(FACE_LOAD).zip(&expected).enumerate() {
@@ -279,7 +281,7 @@ fn the_layer_beside_a_face_has_its_area() {
         let shares = voxelise::all(&Workbench::new(None), &tiling);
         let case = Case::new(tiling, Some(shares), &mut noise);
         check(&case, None);
-        let found = case.run(Walk::Serial, None);
+        let found = case.run(CellMapping::Serial, None);
         for (face, found) in shape.faces().iter().zip(found.chunks(FACE_LOAD)) {
             let across = [8.0, 6.0, 5.0];
             let along = (0..3).find(|a| face.normal[*a].abs() > 0.5).unwrap();

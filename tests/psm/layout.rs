@@ -7,8 +7,8 @@ use riprap::{
         link::{Program, source},
     },
     psm::{
-        FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, Part,
-        SHARED_SUM, TOUCHES, Tile, WRENCH, Walk, reduce_faces,
+        CellMapping, FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion,
+        NEAR, Part, SHARED_SUM, TOUCHES, Tile, WRENCH, reduce_faces,
     },
 };
 use std::mem::offset_of;
@@ -55,7 +55,7 @@ fn structures() {
         ("tile", offset_of!(FaceJob, tile)),
         ("face", offset_of!(FaceJob, face)),
     ];
-    let linked = reduce_faces(&grid([8; 3], 1, [4; 3]), Walk::Parallel)
+    let linked = reduce_faces(&grid([8; 3], 1, [4; 3]), CellMapping::Parallel)
         .link()
         .unwrap();
     check::<FaceJob>(&linked.module, "FaceJob", &job).unwrap();

@@ -4,8 +4,8 @@ use riprap::{
     gpu::{kernel::bindings, link::Program},
     lattice::{Grid, SolidWeight},
     psm::{
-        Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
-        voxelise_edges,
+        CellMapping, Forms, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces,
+        voxelise, voxelise_edges,
     },
 };
 
@@ -30,13 +30,16 @@ fn bindings_by_name() {
         brick: [4; 3],
     };
     let programs = [
-        ("voxelise", voxelise(&grid, Walk::Serial, Forms::ALL, EXACT)),
+        (
+            "voxelise",
+            voxelise(&grid, CellMapping::Serial, Forms::ALL, EXACT),
+        ),
         ("voxelise_edges", voxelise_edges(&grid, Forms::ALL, EXACT)),
-        ("combine_parts", combine_parts(&grid, Walk::Parallel)),
-        ("reduce_tiles", reduce_tiles(&grid, Walk::Serial)),
-        ("reduce_tiles", reduce_tiles(&grid, Walk::Parallel)),
-        ("reduce_faces", reduce_faces(&grid, Walk::Serial)),
-        ("reduce_faces", reduce_faces(&grid, Walk::Parallel)),
+        ("combine_parts", combine_parts(&grid, CellMapping::Parallel)),
+        ("reduce_tiles", reduce_tiles(&grid, CellMapping::Serial)),
+        ("reduce_tiles", reduce_tiles(&grid, CellMapping::Parallel)),
+        ("reduce_faces", reduce_faces(&grid, CellMapping::Serial)),
+        ("reduce_faces", reduce_faces(&grid, CellMapping::Parallel)),
         ("sum_faces", sum_faces()),
         ("reduce_blocks", reduce_blocks()),
     ];

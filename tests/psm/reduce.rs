@@ -7,7 +7,8 @@ use crate::{
 use glam::DVec3;
 use kit::{POISON, Random, Workbench};
 use riprap::psm::{
-    FACING_SUM, JOINT_SUM, PLANES, SHARED_SUM, WRENCH, Walk, constants, reduce_blocks, reduce_tiles,
+    CellMapping, FACING_SUM, JOINT_SUM, PLANES, SHARED_SUM, WRENCH, constants, reduce_blocks,
+    reduce_tiles,
 };
 
 const BLOCKS: u32 = 9;
@@ -143,7 +144,7 @@ impl Case {
     }
 
     /// Wrenches computed by the kernels.
-    fn run(&self, width: Option<u32>, walk: Walk, most: usize) -> Vec<f32> {
+    fn run(&self, width: Option<u32>, walk: CellMapping, most: usize) -> Vec<f32> {
         let bench = Workbench::new(width);
         let motions: Vec<_> = self.moving.iter().map(Moving::on_device).collect();
         let (mut segments, block_first) = self.segments(most);
@@ -199,10 +200,10 @@ fn loads_are_sums_over_cells() {
         let first = case.tiling.by_block(BLOCKS);
         most_tiles = most_tiles.max(first.windows(2).map(|w| w[1] - w[0]).max().unwrap());
         for (walk, most) in [
-            (Walk::Serial, 1),
-            (Walk::Parallel, 1),
-            (Walk::Parallel, 3),
-            (Walk::Parallel, 16),
+            (CellMapping::Serial, 1),
+            (CellMapping::Parallel, 1),
+            (CellMapping::Parallel, 3),
+            (CellMapping::Parallel, 16),
         ] {
             let found = case.run(width, walk, most);
             for (block, (found, expected)) in found.chunks(WRENCH).zip(&expected).enumerate() {

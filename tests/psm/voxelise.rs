@@ -10,7 +10,10 @@ use kit::{POISON, Random, Workbench};
 use riprap::{
     geometry::HalfSpace,
     lattice::SolidWeight,
-    psm::{Forms, INTERIOR, NEAR, TOUCHES, Tile, WHOLE, Walk, constants, voxelise, voxelise_edges},
+    psm::{
+        CellMapping, Forms, INTERIOR, NEAR, TOUCHES, Tile, WHOLE, constants, voxelise,
+        voxelise_edges,
+    },
 };
 
 /// Constant c of the exact weight, cells².
@@ -36,8 +39,8 @@ pub fn both(
     work: &[u32],
     weight: SolidWeight,
 ) -> [Vec<f32>; 2] {
-    let [serial, parallel] =
-        [Walk::Serial, Walk::Parallel].map(|walk| walked(bench, tiling, work, (walk, weight)));
+    let [serial, parallel] = [CellMapping::Serial, CellMapping::Parallel]
+        .map(|walk| walked(bench, tiling, work, (walk, weight)));
     let bits = |shares: &[f32]| shares.iter().map(|s| s.to_bits()).collect::<Vec<_>>();
     let same = serial.each_ref().map(|s| bits(s)) == parallel.each_ref().map(|s| bits(s));
     assert!(same, "the walks differ");
@@ -48,7 +51,7 @@ fn walked(
     bench: &Workbench,
     tiling: &Tiling,
     work: &[u32],
-    (walk, weight): (Walk, SolidWeight),
+    (walk, weight): (CellMapping, SolidWeight),
 ) -> [Vec<f32>; 2] {
     let cells = tiling.tiles.len() * tiling.workgroup();
     let (shares, effective) = (bench.poisoned(cells), bench.poisoned(2 * cells));

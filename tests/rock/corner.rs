@@ -17,7 +17,7 @@ fn falling(corner_area: f64) -> Setup {
     let turn = DQuat::from_rotation_arc(DVec3::ONE.normalize(), DVec3::NEG_Z);
     let floor = Block::new("floor", cuboid(9.0, 9.0, 1.0), DVec3::Z * -0.5).fixed();
     let at = DVec3::Z * (half_diagonal + 1e-4);
-    let mut cube = Block::new("cube", cuboid(1.0, 1.0, 1.0), at).turned(turn);
+    let mut cube = Block::new("cube", cuboid(1.0, 1.0, 1.0), at).rotated(turn);
     cube.velocity = DVec3::Z * -SPEED;
     let mut law = joint(STIFFNESS, 30.0);
     law.damping = 0.0;

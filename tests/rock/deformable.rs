@@ -118,7 +118,7 @@ fn a_load_squeezes_by_its_moment_and_an_initial_stress_lets_go() {
         moment: DMat3::IDENTITY * -pressure + 0.5 * skew(DVec3::ZERO),
         ..Load::default()
     };
-    squeezed.load(&[load]).expect("one load a block");
+    squeezed.set_loads(&[load]).expect("one load a block");
     run(&mut squeezed, 0.05);
     let stress = squeezed.stress(0).expect("it deforms");
     // Cauchy stress refers to the present area, smaller by 2p(1 − 2ν)/E = 2e-3.
@@ -135,7 +135,7 @@ fn a_load_squeezes_by_its_moment_and_an_initial_stress_lets_go() {
             initial_stress: DMat3::from_diagonal(DVec3::X * -pressure),
             ..Deformable::default()
         }),
-        ..block.turned(turn)
+        ..block.rotated(turn)
     }];
     let mut freed = blocks(setup);
     let at_start = freed.stress(0).expect("it deforms");
@@ -156,7 +156,7 @@ fn wall() -> Setup {
         let [x, y, z] = [i % 4, i / 4 % 3, i / 12].map(f64::from);
         let turn = DQuat::from_rotation_z(0.1 * (3.0 * x + 2.0 * y + z).sin());
         let at = DVec3::new(0.85 * x + 0.4 * z - 1.5, 0.8 * y - 0.8, 0.249 + 0.499 * z);
-        let block = Block::new(format!("{i}"), cuboid(0.7, 0.6, 0.5), at).turned(turn);
+        let block = Block::new(format!("{i}"), cuboid(0.7, 0.6, 0.5), at).rotated(turn);
         list.push(if i % 2 == 0 {
             block.deformable()
         } else {

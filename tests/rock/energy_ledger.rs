@@ -12,12 +12,12 @@ use riprap::{
 fn blocks_that_tumble_down_a_slope() {
     let turn = slope(35.0);
     let plate = Block::new("plate", cuboid(40.0, 10.0, 1.0), turn * DVec3::Z * -0.5);
-    let mut list = vec![plate.fixed().turned(turn)];
+    let mut list = vec![plate.fixed().rotated(turn)];
     for i in 0..6 {
         let k = f64::from(i);
         let at = turn * DVec3::new(1.3 * k - 8.0, 0.4 * (2.0 * k).sin(), 1.2 + 0.2 * k);
         let tilt = DQuat::from_scaled_axis(DVec3::new(0.4 * k, 0.3, -0.2 * k));
-        list.push(Block::new(format!("{i}"), cuboid(1.0, 0.8, 0.7), at).turned(tilt));
+        list.push(Block::new(format!("{i}"), cuboid(1.0, 0.8, 0.7), at).rotated(tilt));
     }
     let mut setup = setup(list, joint(1e9, 30.0));
     (setup.damping, setup.largest_overlap) = (0.05, 0.3);
@@ -55,7 +55,7 @@ fn a_driven_block_and_a_load_put_in_what_they_do() {
     let mut loads = [Load::default(); 4];
     // More than the limit of friction: 0.577 of the weight of 24.5 kN.
     loads[3] = Load::at(DVec3::X * 2e4, DVec3::Z * -0.3);
-    blocks.load(&loads).expect("one load a block");
+    blocks.set_loads(&loads).expect("one load a block");
     let start = blocks.ledger();
     run(&mut blocks, 1.0);
     let end = blocks.ledger();
@@ -83,7 +83,7 @@ fn a_load_that_jumps_works_from_the_moment_on() {
     let mut blocks = blocks(setup);
     for (exchange, force) in (1..).zip([1e4, -3e4, 0.0, 7e4, 2e4]) {
         let load = Load::at(DVec3::X * force, DVec3::ZERO);
-        blocks.load(&[load]).expect("one load a block");
+        blocks.set_loads(&[load]).expect("one load a block");
         run(&mut blocks, f64::from(exchange) * 0.01);
     }
     let end = blocks.ledger();

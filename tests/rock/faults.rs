@@ -211,12 +211,12 @@ fn a_load_that_is_no_number_is_refused_and_one_that_throws_a_block_away_is_found
     let mut blocks = blocks(resting());
     let mut loads = [Load::default(); 2];
     loads[1].force.x = f64::NAN;
-    let text = blocks.load(&loads).expect_err("NaN").to_string();
+    let text = blocks.set_loads(&loads).expect_err("NaN").to_string();
     assert!(text.starts_with("blocks[1] (cube):"), "{text}");
-    assert!(blocks.load(&loads[..1]).is_err());
+    assert!(blocks.set_loads(&loads[..1]).is_err());
 
     loads[1].force.x = f64::MAX;
-    blocks.load(&loads).expect("a number");
+    blocks.set_loads(&loads).expect("a number");
     let Err(Error::NotFinite { block, .. }) = try_run(&mut blocks, 0.1) else {
         panic!("the block is nowhere");
     };
@@ -289,7 +289,7 @@ fn times_that_are_past_or_none_are_refused() {
         let text = try_run(&mut blocks, until).expect_err("no time");
         assert!(text.to_string().starts_with("until: "), "{text}");
         assert!(blocks.step_towards(until).is_err());
-        assert!(blocks.wait(until).is_err());
+        assert!(blocks.skip_to(until).is_err());
     }
     let text = blocks.step_towards(0.005).expect_err("it is past");
     assert!(text.to_string().contains("0.005 s is past"), "{text}");
@@ -339,7 +339,7 @@ fn a_block_that_is_crushed_is_named_and_the_last_state_is_kept() {
     setup.time_step = Some(1e-5);
     let mut blocks = blocks(setup);
     let error = loop {
-        if blocks.wants_pairs() {
+        if blocks.needs_pairs() {
             blocks.set_pairs(Vec::new()).expect("it is alone");
         }
         if let Err(error) = blocks.step() {

@@ -211,7 +211,7 @@ fn a_restart_amid_films_gives_the_same_bits() {
     for k in 0..3 {
         let at = DVec3::new(0.1 * f64::from(k), 0.0, 0.33 + 0.55 * f64::from(k));
         let tilt = DQuat::from_rotation_x(0.02 * f64::from(k));
-        list.push(Block::new(format!("{k}"), cuboid(1.0, 1.0, 0.5), at).turned(tilt));
+        list.push(Block::new(format!("{k}"), cuboid(1.0, 1.0, 0.5), at).rotated(tilt));
     }
     let mut setup = with_film(list, 1e3, 1e-3);
     setup.film.as_mut().expect("a film").delay = Some(LoadDelay {

@@ -22,13 +22,13 @@ fn guided(list: Vec<Block>) -> riprap::rock::Setup {
 #[test]
 fn it_falls_along_its_rail_as_on_a_slope_without_friction() {
     let turn = DQuat::from_rotation_x(0.3);
-    let cube = Block::new("cube", cuboid(1.0, 0.5, 0.7), DVec3::ZERO).turned(turn);
+    let cube = Block::new("cube", cuboid(1.0, 0.5, 0.7), DVec3::ZERO).rotated(turn);
     let mut setup = guided(vec![cube]);
     setup.time_step = Some(1e-3);
     let mut blocks = blocks(setup);
     let start = blocks.ledger();
     let across = Load::at(DVec3::new(4e3, 1e3, 3e3), DVec3::new(0.2, 0.4, -0.1));
-    blocks.load(&[across]).expect("one load");
+    blocks.set_loads(&[across]).expect("one load");
     run(&mut blocks, 2.0);
     let pose = blocks.poses()[0];
     let axis = AXIS.normalize();

@@ -23,7 +23,7 @@ fn along_x(length: f64) -> Option<Period> {
 /// Two blocks that strike each other obliquely, and a ball that approaches them and is slowed by a film.
 fn strike(at: DVec3, period: Option<Period>) -> Setup {
     let turn = DQuat::from_scaled_axis(DVec3::new(0.3, 0.2, 0.5));
-    let mut left = Block::new("left", cuboid(0.8, 0.7, 0.6), at - DVec3::X * 0.6).turned(turn);
+    let mut left = Block::new("left", cuboid(0.8, 0.7, 0.6), at - DVec3::X * 0.6).rotated(turn);
     left.velocity = DVec3::X;
     let mut right = Block::new("right", cuboid(0.7, 0.7, 0.7), at + DVec3::X * 0.55);
     right.spin = DVec3::new(1.0, -2.0, 0.5);

@@ -18,7 +18,7 @@ fn wall() -> Setup {
         let [x, y, z] = [i % 4, i / 4 % 4, i / 16].map(f64::from);
         let turn = DQuat::from_rotation_z(0.1 * (3.0 * x + 2.0 * y + z).sin());
         let at = DVec3::new(0.85 * x + 0.4 * (z % 2.0), 0.8 * y, 0.249 + 0.499 * z);
-        list.push(Block::new(format!("{i}"), cuboid(0.7, 0.6, 0.5), at).turned(turn));
+        list.push(Block::new(format!("{i}"), cuboid(0.7, 0.6, 0.5), at).rotated(turn));
     }
     setup(list, joint(1e7, 30.0))
 }

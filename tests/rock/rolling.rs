@@ -31,7 +31,7 @@ fn on_plate(alpha: f64, velocity: DVec3) -> Blocks {
     sphere.velocity = turn * velocity;
     let mut joint = joint(STIFFNESS, FRICTION);
     joint.damping = 0.1;
-    blocks(setup(vec![plate.fixed().turned(turn), sphere], joint))
+    blocks(setup(vec![plate.fixed().rotated(turn), sphere], joint))
 }
 
 fn motion(blocks: &Blocks) -> (DVec3, DVec3) {

@@ -6,7 +6,7 @@ use kit::{assert_near, assert_relative};
 use riprap::{
     geometry::{HalfSpace, Polyhedron},
     rock::{Block, PairMaterial, Period, PointLoad, Setup, law::Joint},
-    safety::{Mode, Standing},
+    safety::{Mode, SafetyFactors},
 };
 use std::sync::Arc;
 
@@ -15,7 +15,10 @@ fn on_incline(alpha: f64, [b, h]: [f64; 2], joint: Joint) -> Setup {
     let turn = slope(alpha);
     let plate = Block::new("plate", cuboid(12.0, 3.0, 1.0), turn * DVec3::Z * -0.5);
     let block = Block::new("block", cuboid(b, b, h), turn * DVec3::Z * (0.5 * h));
-    setup(vec![plate.fixed().turned(turn), block.turned(turn)], joint)
+    setup(
+        vec![plate.fixed().rotated(turn), block.rotated(turn)],
+        joint,
+    )
 }
 
 /// A prism on two slabs that meet in a line: each plane has dip, dip direction and friction angle, degrees.
@@ -67,13 +70,13 @@ fn wedge(planes: [[f64; 3]; 2]) -> Setup {
 }
 
 /// Factors of safety of the block `block` with a fluid force (N), after it has come to rest under mass damping.
-fn standing(setup: Setup, block: usize, force: DVec3) -> Standing {
+fn standing(setup: Setup, block: usize, force: DVec3) -> SafetyFactors {
     let mut blocks = blocks(Setup {
         damping: 50.0,
         ..setup.clone()
     });
     run(&mut blocks, 0.3);
-    Standing::of(&setup, &blocks, block, [force, DVec3::ZERO])
+    SafetyFactors::of(&setup, &blocks, block, [force, DVec3::ZERO])
 }
 
 /// tan φ/tan α and (b/h)/tan α; the contact's normal and area include the tilt from its compliance, 1e-4.
@@ -115,7 +118,7 @@ fn a_column_topples_over_its_edge() {
 fn before_it_presses_it_stands_on_its_faces() {
     for alpha in [10f64, 20.0] {
         let setup = on_incline(alpha, [1.0, 2.0], joint(4e10, 50.0));
-        let found = Standing::of(&setup, &blocks(setup.clone()), 1, [DVec3::ZERO; 2]);
+        let found = SafetyFactors::of(&setup, &blocks(setup.clone()), 1, [DVec3::ZERO; 2]);
         let tan_alpha = alpha.to_radians().tan();
         let tan_phi = 50f64.to_radians().tan();
         assert_relative(found.sliding.factor * tan_alpha, tan_phi, 1e-9);
@@ -182,7 +185,7 @@ fn a_held_block_stands_on_what_is_held_too() {
     assert!(blocks.contacts().any(|contact| contact.blocks == [1, 2]));
     let weight = 0.064 * 2500.0 * 9.81;
     let push = DVec3::X * 0.5 * weight;
-    let found = Standing::of(&setup, &blocks, 1, [push, DVec3::ZERO]);
+    let found = SafetyFactors::of(&setup, &blocks, 1, [push, DVec3::ZERO]);
     assert_relative(found.sliding.factor, 2.0, 1e-6);
 }
 
@@ -202,7 +205,7 @@ fn a_block_stands_on_the_image_of_another() {
     });
     let weight = 0.2 * 2500.0 * 9.81;
     let push = DVec3::Y * weight;
-    let found = Standing::of(&setup, &blocks(setup.clone()), 1, [push, DVec3::ZERO]);
+    let found = SafetyFactors::of(&setup, &blocks(setup.clone()), 1, [push, DVec3::ZERO]);
     // The block reaches from 1 to 2 m, the image of the pillar from 1.8 m on.
     let exact = (1e4 * 0.2 * 0.4 + weight) / weight;
     // Faces in contact may be apart by a ten-thousandth of the radius.

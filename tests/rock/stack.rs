@@ -31,7 +31,7 @@ fn stack(aside: f64) -> Setup {
 fn push(blocks: &mut Blocks, block: usize) {
     let mut loads = [Load::default(); 5];
     loads[block].force = DVec3::X * 6e4;
-    blocks.load(&loads).expect("one load a block");
+    blocks.set_loads(&loads).expect("one load a block");
 }
 
 #[test]

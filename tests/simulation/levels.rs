@@ -1,7 +1,7 @@
 //! Faces with a pressure that changes over time, and hydrostatic ones.
 
 use kit::{Rig, assert_near};
-use riprap::{output::Image, scene::Field, simulation::Simulation};
+use riprap::{output::ImageData, scene::Field, simulation::Simulation};
 
 /// A basin with a pressure face at its end, which rises from 1 s on by 100 Pa in 4 s.
 fn basin(pressure: &str, reflecting: bool) -> String {
@@ -18,12 +18,12 @@ fn basin(pressure: &str, reflecting: bool) -> String {
     )
 }
 
-fn image(rig: &Rig, simulation: &mut Simulation) -> Image {
+fn image(rig: &Rig, simulation: &mut Simulation) -> ImageData {
     let read = simulation.image(&[Field::Pressure, Field::Velocity]);
     rig.wait(read).unwrap()
 }
 
-fn mean_pressure(image: &Image) -> f64 {
+fn mean_pressure(image: &ImageData) -> f64 {
     let values = &image.array("pressure").unwrap().values;
     values.iter().map(|p| f64::from(*p)).sum::<f64>() / values.len() as f64
 }
@@ -101,12 +101,12 @@ fn an_outlet_holds_hydrostatic_pressure_where_water_is_heavy() {
             rig.wait(simulation.advance(1000)).unwrap();
             image(&rig, &mut simulation)
         });
-        let velocity = |image: &Image| image.array("velocity").unwrap().values.clone();
+        let velocity = |image: &ImageData| image.array("velocity").unwrap().values.clone();
         let pairs = velocity(&light).into_iter().zip(velocity(&heavy));
         let largest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
         assert!(largest < 0.003, "{reflecting}: {largest} m/s of 0.3");
         // Above the outlet's middle at 0.6 m the pressure is lower by the weight between.
-        let at = |image: &Image, z: f64| image.sample("pressure", [2.3, 0.2, z]).unwrap()[0];
+        let at = |image: &ImageData, z: f64| image.sample("pressure", [2.3, 0.2, z]).unwrap()[0];
         for z in [0.15, 0.55, 1.05] {
             let weight = at(&heavy, z) - at(&light, z);
             assert_near(weight, 1000.0 * 0.05 * (0.6 - z), 1.0);

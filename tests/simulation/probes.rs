@@ -1,7 +1,7 @@
 //! Probes of images with values from formulas.
 
 use kit::{assert_contains, assert_near};
-use riprap::output::{Array, Image};
+use riprap::output::{Array, ImageData};
 use riprap::scene::{Axis, Scene};
 use riprap::simulation::probe::{Gauge, Layer};
 
@@ -40,7 +40,7 @@ fn solid(scene: &Scene) -> Vec<bool> {
 }
 
 /// The scene with p = 1 + 2x − 3y and u = (y, x, 4).
-fn image(scene: &Scene) -> Image {
+fn image(scene: &Scene) -> ImageData {
     let (mut pressure, mut velocity) = (Vec::new(), Vec::new());
     for [x, y, _] in scene.domain.centres() {
         pressure.push((1.0 + 2.0 * x - 3.0 * y) as f32);
@@ -51,7 +51,7 @@ fn image(scene: &Scene) -> Image {
         components,
         values,
     };
-    Image {
+    ImageData {
         origin: scene.domain.origin,
         spacing: scene.domain.cell,
         cells: scene.cells().map(|n| n as usize),

@@ -2,7 +2,7 @@
 
 use kit::Rig;
 use riprap::{
-    output::Image,
+    output::ImageData,
     scene::{Boundary, Field, Scene},
     simulation::Simulation,
 };
@@ -55,11 +55,11 @@ fn simulation(rig: &Rig, statistics: bool) -> Simulation {
     rig.simulation(&scene(statistics)).unwrap()
 }
 
-fn image(rig: &Rig, simulation: &mut Simulation, fields: &[Field]) -> Image {
+fn image(rig: &Rig, simulation: &mut Simulation, fields: &[Field]) -> ImageData {
     rig.wait(simulation.image(fields)).unwrap()
 }
 
-fn values(image: &Image, field: Field) -> &[f32] {
+fn values(image: &ImageData, field: Field) -> &[f32] {
     &image.array(field.name()).unwrap().values
 }
 
@@ -82,9 +82,9 @@ fn fields_over_time_are_those_of_the_states_that_are_samples() {
     let found = image(&rig, &mut whole, &FIELDS);
 
     let count = states.len() as f64;
-    let mean = |of: &dyn Fn(&Image) -> f64| states.iter().map(of).sum::<f64>() / count;
-    let u = |state: &Image, at: usize| f64::from(values(state, Field::Velocity)[at]);
-    let p = |state: &Image, at: usize| f64::from(values(state, Field::Pressure)[at]);
+    let mean = |of: &dyn Fn(&ImageData) -> f64| states.iter().map(of).sum::<f64>() / count;
+    let u = |state: &ImageData, at: usize| f64::from(values(state, Field::Velocity)[at]);
+    let p = |state: &ImageData, at: usize| f64::from(values(state, Field::Pressure)[at]);
     for cell in 0..found.cell_count() {
         let means = [0, 1, 2].map(|a| mean(&|state| u(state, 3 * cell + a)));
         for a in 0..3 {

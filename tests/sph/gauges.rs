@@ -6,7 +6,7 @@ use kit::{assert_near, assert_relative};
 use riprap::scene::Field;
 use riprap::{
     simulation::point_cloud,
-    sph::{Gauges, Setup, Side, Totals, Water},
+    sph::{Interpolator, Setup, Side, Totals, Water},
 };
 
 /// A tank of 1 × 1 × 1 m with water below a height (m) that depends on (x, y).
@@ -22,7 +22,7 @@ fn water(height: impl Fn(f64, f64) -> f64) -> (Setup, Vec<DVec3>) {
 #[test]
 fn the_level_of_still_water_is_the_top_of_its_uppermost_particles() {
     let (setup, positions) = water(|_, _| 0.5);
-    let gauges = Gauges::new(&setup, &positions);
+    let gauges = Interpolator::new(&setup, &positions);
     // In the middle, between particles, at a wall and in a corner.
     for at in [
         [0.525, 0.525],
@@ -40,7 +40,7 @@ fn the_level_of_still_water_is_the_top_of_its_uppermost_particles() {
 fn drops_do_not_count_and_dry_ground_has_no_level() {
     let (setup, mut positions) = water(|x, _| if x < 0.5 { 0.3 } else { 0.0 });
     positions.push(DVec3::new(0.2, 0.5, 0.9));
-    let gauges = Gauges::new(&setup, &positions);
+    let gauges = Interpolator::new(&setup, &positions);
     let level = gauges.level([0.2, 0.5]).unwrap();
     assert_near(level, 0.3, 0.1 * DX);
     assert_eq!(gauges.level([0.9, 0.5]), None);
@@ -49,7 +49,7 @@ fn drops_do_not_count_and_dry_ground_has_no_level() {
 #[test]
 fn the_level_follows_a_slope() {
     let (setup, positions) = water(|x, _| 0.3 + 0.2 * x);
-    let gauges = Gauges::new(&setup, &positions);
+    let gauges = Interpolator::new(&setup, &positions);
     for x in [0.3, 0.42, 0.55, 0.7] {
         let level = gauges.level([x, 0.5]).unwrap();
         // The lattice has steps of a spacing.
@@ -60,14 +60,16 @@ fn the_level_follows_a_slope() {
 #[test]
 fn the_level_of_a_film_is_the_top_of_its_particles() {
     let (setup, positions) = water(|_, _| DX);
-    let level = Gauges::new(&setup, &positions).level([0.5, 0.5]).unwrap();
+    let level = Interpolator::new(&setup, &positions)
+        .level([0.5, 0.5])
+        .unwrap();
     assert_near(level, DX, 1e-12);
 }
 
 #[test]
 fn the_water_fraction_is_one_inside_and_a_half_at_the_surface() {
     let (setup, positions) = water(|_, _| 0.8);
-    let gauges = Gauges::new(&setup, &positions);
+    let gauges = Interpolator::new(&setup, &positions);
     let fraction = |z| gauges.water_fraction(DVec3::new(0.525, 0.525, z));
     assert_near(fraction(0.5), 1.0, 0.01);
     assert_near(fraction(0.8), 0.5, 0.01);
@@ -80,7 +82,7 @@ fn the_pressure_of_still_water_is_exact_also_at_walls() {
     let weight = setup.density * setup.gravity;
     let pressure = |x: DVec3| weight.dot(x - DVec3::Z * 0.5);
     let values: Vec<f64> = positions.iter().map(|x| pressure(*x)).collect();
-    let gauges = Gauges::new(&setup, &positions);
+    let gauges = Interpolator::new(&setup, &positions);
     for at in [
         [0.5, 0.5, 0.2],
         [0.0, 0.31, 0.1],
@@ -101,7 +103,7 @@ fn the_pressure_of_still_water_is_exact_also_at_walls() {
 fn gauges_see_periodic_images() {
     let (mut setup, positions) = water(|_, _| 0.5);
     setup.faces[0] = [Side::Periodic; 2];
-    let gauges = Gauges::new(&setup, &positions);
+    let gauges = Interpolator::new(&setup, &positions);
     let [end, middle] = [0.0, 0.5].map(|x| gauges.water_fraction(DVec3::new(x, 0.525, 0.225)));
     assert_near(end, middle, 1e-12);
 }
@@ -110,7 +112,7 @@ fn gauges_see_periodic_images() {
 fn run_up_ignores_drops() {
     let (setup, mut positions) = water(|x, _| if x < 0.6 { 0.3 } else { 0.0 });
     positions.push(DVec3::new(0.9, 0.5, 0.1));
-    let gauges = Gauges::new(&setup, &positions);
+    let gauges = Interpolator::new(&setup, &positions);
     let [low, high] = [DVec3::ZERO, DVec3::ONE];
     let front = gauges.farthest(low, high, DVec3::X).unwrap();
     assert_near(front.x, 0.575, 1e-12);

@@ -15,7 +15,7 @@ use riprap::{
         self, BrickKind, Collision, Face, Force, Grid, SolidOperator, SolidWeight, Storage,
         SurfaceCell, WallModel, collide_stream, single_cells,
     },
-    psm::{self, Forms, Walk},
+    psm::{self, CellMapping, Forms},
     sph::{self, CellGrid, EquationOfState, NeighbourSearch, Scheme, Side},
     wgpu,
 };
@@ -171,8 +171,8 @@ impl Output<'_> {
             ("block_friction", "clear_viscosity"),
             ("block_friction", "list_block_faces"),
             ("pressure_face", "hold_pressure"),
-            ("outflow", "flow_out"),
-            ("outflow", "remember"),
+            ("outflow", "apply_outflow"),
+            ("outflow", "store_outflow"),
             ("exchange", "take_out"),
             ("exchange", "bring_in"),
             ("initialise", "initialise"),
@@ -201,12 +201,21 @@ impl Output<'_> {
         for (entry, program) in [
             (
                 "voxelise",
-                psm::voxelise(&grid, Walk::Parallel, forms, weight),
+                psm::voxelise(&grid, CellMapping::Parallel, forms, weight),
             ),
             ("voxelise_edges", psm::voxelise_edges(&grid, forms, weight)),
-            ("combine_parts", psm::combine_parts(&grid, Walk::Parallel)),
-            ("reduce_tiles", psm::reduce_tiles(&grid, Walk::Parallel)),
-            ("reduce_faces", psm::reduce_faces(&grid, Walk::Parallel)),
+            (
+                "combine_parts",
+                psm::combine_parts(&grid, CellMapping::Parallel),
+            ),
+            (
+                "reduce_tiles",
+                psm::reduce_tiles(&grid, CellMapping::Parallel),
+            ),
+            (
+                "reduce_faces",
+                psm::reduce_faces(&grid, CellMapping::Parallel),
+            ),
             ("sum_faces", psm::sum_faces()),
             ("reduce_blocks", psm::reduce_blocks()),
         ] {

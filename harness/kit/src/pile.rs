@@ -87,7 +87,7 @@ impl Pile {
     /// # Errors
     /// None that [`Pile::settled`] did not have.
     pub fn find_pairs(&mut self) -> Result<bool> {
-        let wanted = self.blocks.wants_pairs();
+        let wanted = self.blocks.needs_pairs();
         if wanted {
             let pairs = pollster::block_on(HostBroadphase.pairs(&self.blocks.aabbs()))?;
             self.blocks.set_pairs(pairs)?;

@@ -6,7 +6,7 @@ use super::{
     rock::crossover,
     table::{self, Extent},
 };
-use crate::validate::{self, Case, Stand};
+use crate::validate::{self, Case, CaseContext};
 use serde::Serialize;
 use std::time::Instant;
 
@@ -16,7 +16,7 @@ const LONG: &str = "cavity/* wake/* stability/* solids/array* solids/cylinder so
 
 /// A case for which no time was left.
 #[derive(Clone, Debug, Serialize)]
-pub struct LeftOut {
+pub struct SkippedCase {
     /// Kind of record: `left out`.
     part: &'static str,
     /// Name of the case.
@@ -53,7 +53,7 @@ pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> anyhow::Result<Vec<Mea
     measured.extend(rows.into_iter().map(Measured::Rock));
     measured.extend(crossings.into_iter().map(Measured::Crossover));
 
-    let stand = Stand::on(bench.device, bench.queue);
+    let context = CaseContext::on(bench.device, bench.queue);
     println!("\n{}", validate::record::header());
     let start = Instant::now();
     let (mut judged, mut failed) = (0, 0);
@@ -63,13 +63,13 @@ pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> anyhow::Result<Vec<Mea
                 "{}: left out, the {patience:.0} s of validation are over",
                 case.name
             );
-            measured.push(Measured::LeftOut(LeftOut {
+            measured.push(Measured::LeftOut(SkippedCase {
                 part: "left out",
                 case: case.name,
             }));
             continue;
         }
-        for record in validate::found(&stand, &case) {
+        for record in validate::found(&context, &case) {
             judged += usize::from(record.limit.is_some());
             failed += usize::from(!record.passed);
             measured.push(Measured::Validation(record));

@@ -105,7 +105,7 @@ enum Measured {
     Table(table::Row),
     Crossover(rock::Crossover),
     Validation(crate::validate::Record),
-    LeftOut(device::LeftOut),
+    LeftOut(device::SkippedCase),
     Target(Target),
 }
 

@@ -11,7 +11,9 @@ use riprap::{
     Error, Result,
     geometry::{Pose, Shape},
     gpu::readback::Readback,
-    lattice::{Grid, Lattice, Memory, Setup, SolidOperator, State, Storage, bytes_a_cell, memory},
+    lattice::{
+        Grid, Lattice, Memory, Setup, SolidOperator, State, Storage, bytes_per_cell, memory,
+    },
     psm::{SolidBlock, SolidCells},
     wgpu,
 };
@@ -152,7 +154,7 @@ pub fn measure(bench: &Bench<'_>, budget: Option<u64>, extent: Extent) -> Result
                         Ok((spent, steps)) => {
                             let speed = f64::from(grid).powi(3) / spent;
                             row.mlups = Some(speed / 1e6);
-                            let bandwidth = speed * bytes_a_cell(&setup) as f64;
+                            let bandwidth = speed * bytes_per_cell(&setup) as f64;
                             row.bandwidth = Some(bandwidth);
                             row.share_of_copy = Some(bandwidth / copied);
                             row.steps = steps;
@@ -187,7 +189,7 @@ fn setup(grid: u32, storage: Storage, kind: Kind, bench: &Bench<'_>) -> Setup {
     }
     if !software {
         // The bricks depend on the features of the setup.
-        setup.suit_gpu();
+        setup.use_gpu_layout();
     }
     setup
 }

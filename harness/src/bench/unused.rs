@@ -2,7 +2,7 @@
 
 use super::{
     Bench,
-    solids::{Row, Table, Turns, World},
+    solids::{InterleavedRuns, Row, Table, World},
     target::{Target, show},
 };
 use riprap::{
@@ -39,7 +39,7 @@ pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
         (true, false) => (48, 21),
         (false, _) => (192, 21),
     };
-    let turns = Turns::new(bench, rounds, 0.1);
+    let turns = InterleavedRuns::new(bench, rounds, 0.1);
     let mut table = Table::begin("unused");
     let (mut worst, mut noise) = (0.0f64, None);
     for pair in pairs(n)? {

@@ -224,7 +224,7 @@ mod tests {
     use super::*;
     use riprap::{
         gpu::link::Program,
-        lattice::{BrickKind, Collision, Force, Setup, Storage, bytes_a_cell, collide_stream},
+        lattice::{BrickKind, Collision, Force, Setup, Storage, bytes_per_cell, collide_stream},
     };
 
     fn work(body: &str) -> Work {
@@ -307,7 +307,7 @@ mod tests {
             let cells = u64::from(setup.lanes);
             assert_eq!(found.loops, 0, "{layout:?}");
             assert_eq!(found.read, found.written, "{layout:?}");
-            assert_eq!(found.bytes(), cells * bytes_a_cell(&setup), "{layout:?}");
+            assert_eq!(found.bytes(), cells * bytes_per_cell(&setup), "{layout:?}");
         }
     }
 

@@ -6,7 +6,7 @@ use riprap::{
     coupling::{Coupled, Gap},
     geometry::{Form, Shape},
     rock::{Block, Blocks, Motion},
-    scene::build::LeftOut,
+    scene::build::DiscardedPieces,
     simulation::Simulation,
 };
 use serde::Serialize;
@@ -53,7 +53,7 @@ pub struct BlockFacts {
 
 impl BlockFacts {
     /// The facts of `blocks`, the first of which are `shown`, with steps of `time_step` s.
-    pub fn of(shown: &[Block], blocks: &Blocks, left: &[LeftOut], time_step: f64) -> Self {
+    pub fn of(shown: &[Block], blocks: &Blocks, left: &[DiscardedPieces], time_step: f64) -> Self {
         let count = |wanted: fn(&Motion) -> bool| {
             let motions = shown.iter().map(|block| &block.motion);
             motions.filter(|motion| wanted(motion)).count()

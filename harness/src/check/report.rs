@@ -5,7 +5,7 @@ use crate::{
     adapters::Adapter,
     bench::Work,
     print::{bytes, duration},
-    run::{Coupling, LeftOut},
+    run::{Coupling, SkippedWork},
 };
 use anyhow::Result;
 use riprap::{
@@ -28,7 +28,7 @@ pub struct Report {
     /// Dispatches of a step.
     pub kernels: Vec<Kernel>,
     /// Features that the scene does not use and the kernels skip.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<SkippedWork>,
     /// Time step and parameters of the method.
     pub numerics: Numerics,
     /// The blocks, if there are any.
@@ -174,9 +174,15 @@ impl Report {
                 .chain(solid_cells.into_iter().flat_map(SolidCells::kernels))
                 .map(Kernel::of)
                 .collect(),
-            left_out: LeftOut::of_lattice(lattice)
+            left_out: SkippedWork::of_lattice(lattice)
                 .into_iter()
-                .chain(cells.as_ref().map(LeftOut::of_places).into_iter().flatten())
+                .chain(
+                    cells
+                        .as_ref()
+                        .map(SkippedWork::of_places)
+                        .into_iter()
+                        .flatten(),
+                )
                 .collect(),
             accuracy: Accuracy::all(simulation, numerics.speed),
             warnings: warnings.collect(),
@@ -294,7 +300,7 @@ impl Report {
             lines.add("", format_args!("buffers: {}", shorten(&kernel.bindings)));
             lines.add("", kernel.work());
         }
-        if let Some(left_out) = LeftOut::line(&self.left_out) {
+        if let Some(left_out) = SkippedWork::line(&self.left_out) {
             lines.add("runs", left_out);
         }
         self.numerics(&mut lines);

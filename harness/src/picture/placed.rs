@@ -3,7 +3,7 @@
 use super::section::Plane;
 use glam::{DMat3, DVec2, DVec3};
 use riprap::geometry::Form;
-use riprap::output::Image;
+use riprap::output::ImageData;
 use std::f64::consts::TAU;
 
 /// Corners of the polygon by which the section of a sphere is drawn: off the circle by r(1 − cos π/96), less than half a
@@ -99,7 +99,7 @@ impl Placed<'_> {
 }
 
 /// For each cell of `image`, whether its centre is in one of `blocks`.
-pub fn cells_in(image: &Image, blocks: &[Placed<'_>]) -> Vec<bool> {
+pub fn cells_in(image: &ImageData, blocks: &[Placed<'_>]) -> Vec<bool> {
     let mut inside = vec![false; image.cell_count()];
     for block in blocks {
         let [low, high] = block.bounds();

@@ -2,7 +2,7 @@
 
 use super::placed::{Placed, cells_in};
 use anyhow::{Context, Result, bail};
-use riprap::output::{Array, Image};
+use riprap::output::{Array, ImageData};
 
 /// A plane normal to an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,12 +56,12 @@ pub struct Section {
     pub in_blocks: Vec<bool>,
     plane: Plane,
     /// The layer of cells that the plane passes through; its array `solid` marks all cells without fluid.
-    layer: Image,
+    layer: ImageData,
 }
 
 impl Section {
     /// Cuts `image` by `plane`, without interpolation of cell values.
-    pub fn new(image: &Image, plane: Plane, quantity: Quantity<'_>) -> Result<Self> {
+    pub fn new(image: &ImageData, plane: Plane, quantity: Quantity<'_>) -> Result<Self> {
         if plane.normal > 2 {
             let axis = plane.normal;
             bail!("a plane cannot be normal to axis {axis}; give 0 (x), 1 (y) or 2 (z)");
@@ -85,7 +85,7 @@ impl Section {
                 squares.sum::<f64>().sqrt()
             }
         };
-        let mut thin = Image {
+        let mut thin = ImageData {
             origin: image.origin,
             spacing: image.spacing,
             cells: image.cells,
@@ -194,7 +194,7 @@ impl Section {
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The array of `quantity`, after a check that it fits.
-fn array<'a>(image: &'a Image, quantity: Quantity<'_>) -> Result<&'a Array> {
+fn array<'a>(image: &'a ImageData, quantity: Quantity<'_>) -> Result<&'a Array> {
     let (Quantity::Scalar(name) | Quantity::Magnitude(name)) = quantity;
     let array = image.array(name).with_context(|| {
         let names = image.arrays.iter().map(|array| array.name.as_str());
@@ -213,7 +213,7 @@ fn array<'a>(image: &'a Image, quantity: Quantity<'_>) -> Result<&'a Array> {
 }
 
 /// The layer of cells that `plane` passes through; the last one also ends with the domain.
-fn layer(image: &Image, plane: Plane) -> Result<usize> {
+fn layer(image: &ImageData, plane: Plane) -> Result<usize> {
     let axis = plane.normal;
     let (low, cells) = (image.origin[axis], image.cells[axis]);
     let high = low + image.spacing * cells as f64;

@@ -10,7 +10,7 @@ use super::placed::Placed;
 use super::section::{Plane, Quantity, Section};
 use super::streamlines::streamlines;
 use anyhow::Result;
-use riprap::output::Image;
+use riprap::output::ImageData;
 use std::path::Path;
 
 /// Width of the picture, pixels.
@@ -53,7 +53,7 @@ pub struct Slice<'a> {
 
 impl Slice<'_> {
     /// Draws the slice of `image` into a PNG file.
-    pub fn draw(&self, image: &Image, path: &Path) -> Result<()> {
+    pub fn draw(&self, image: &ImageData, path: &Path) -> Result<()> {
         let mut section = Section::new(image, self.plane, self.quantity)?;
         section.leave_out(self.blocks);
         let length = matches!(self.quantity, Quantity::Magnitude(_));

@@ -3,7 +3,7 @@
 use super::field_lines::{Field, Taken};
 use super::placed::{Placed, cells_in};
 use glam::DVec3;
-use riprap::output::Image;
+use riprap::output::ImageData;
 
 /// Step relative to the cell size: trilinear velocity bends little within half a cell.
 const STEP: f64 = 0.5;
@@ -32,7 +32,7 @@ pub struct Trace {
 
 /// At most `count` streamlines of the array `velocity` of `image`, spread over its fluid: cells that are neither solid
 /// nor in one of `blocks`. None if there is no such array, or nothing moves.
-pub fn traces(image: &Image, blocks: &[Placed<'_>], count: u32) -> Vec<Trace> {
+pub fn traces(image: &ImageData, blocks: &[Placed<'_>], count: u32) -> Vec<Trace> {
     let Some(flow) = Flow::new(image, blocks) else {
         return Vec::new();
     };
@@ -74,14 +74,14 @@ pub fn traces(image: &Image, blocks: &[Placed<'_>], count: u32) -> Vec<Trace> {
 
 /// A velocity on cells.
 struct Flow<'a> {
-    image: &'a Image,
+    image: &'a ImageData,
     /// Cells that are solid or in blocks.
     left_out: Vec<bool>,
     still: f64,
 }
 
 impl<'a> Flow<'a> {
-    fn new(image: &'a Image, blocks: &[Placed<'_>]) -> Option<Self> {
+    fn new(image: &'a ImageData, blocks: &[Placed<'_>]) -> Option<Self> {
         let velocity = image.array("velocity")?;
         if velocity.values.len() != 3 * image.cell_count() {
             return None;

@@ -30,8 +30,8 @@ const ARRAY_DIGITS: f64 = 5e-4 / 4.292;
 pub fn array(full: bool) -> Class {
     let run = |method: Method, edge: u32, tau: f64| {
         let array = Array::new(USUAL, edge, tau).by(method);
-        let point = Point::by(method, array.diameter(), move |stand| {
-            let found = array.measure(stand)?;
+        let point = Point::by(method, array.diameter(), move |context| {
+            let found = array.measure(context)?;
             Ok(Found {
                 value: found.ratio,
                 tau: Some(tau),
@@ -109,8 +109,8 @@ const SETTLING: [f64; 3] = [1.252528, 1.011002, 0.969997];
 /// A cube in a stream.
 pub fn cube(full: bool, reynolds: f64) -> Class {
     let run = |method: Method, size: u32| {
-        Point::by(method, size.into(), move |stand| {
-            let drag = obstacle::cube_on(stand, size, reynolds, method)?;
+        Point::by(method, size.into(), move |context| {
+            let drag = obstacle::cube_on(context, size, reynolds, method)?;
             Ok(Found {
                 value: drag.coefficient,
                 tau: Some(drag.tau),
@@ -165,9 +165,9 @@ pub fn cube(full: bool, reynolds: f64) -> Class {
 pub fn settling(full: bool) -> Class {
     let run = |method: Method, cells: u32| {
         let across = f64::from(cells) * 2.0 * settling::RADIUS / settling::EDGE;
-        Point::by(method, across, move |stand| {
+        Point::by(method, across, move |context| {
             let grid = (cells, settling::SPEED);
-            let fall = settling::E1.fall(stand, grid, settling::E1_FASTEST, method)?;
+            let fall = settling::E1.fall(context, grid, settling::E1_FASTEST, method)?;
             Ok(Found {
                 value: fall.fastest / settling::E1.fastest,
                 tau: Some(fall.tau),

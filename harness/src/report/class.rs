@@ -1,7 +1,7 @@
 //! Classes of scenes, and the settings with which each is computed.
 
 use super::{blocks, flows, water};
-use crate::validate::{Method, Stand, Trial};
+use crate::validate::{CaseContext, Method, Trial};
 
 /// Result of a point.
 pub struct Found {
@@ -16,7 +16,7 @@ pub struct Found {
 }
 
 /// Function that computes a point.
-pub type Run = Box<dyn Fn(&Stand) -> anyhow::Result<Found>>;
+pub type Run = Box<dyn Fn(&CaseContext) -> anyhow::Result<Found>>;
 
 /// One point of a diagram: a setting on a grid.
 pub struct Point {
@@ -94,7 +94,7 @@ impl Point {
     pub fn by(
         method: Method,
         resolution: f64,
-        run: impl Fn(&Stand) -> anyhow::Result<Found> + 'static,
+        run: impl Fn(&CaseContext) -> anyhow::Result<Found> + 'static,
     ) -> Self {
         Self {
             setting: method.name.into(),

@@ -11,7 +11,7 @@ use crate::{
     bench::Machine,
     picture::{Chart, Curve, Mark, Measure, extremes},
     print::percent,
-    validate::Stand,
+    validate::CaseContext,
 };
 use riprap::output::replace;
 use serde::Serialize;
@@ -93,7 +93,7 @@ impl Report {
     }
 
     /// Repeats the longest of the short runs with the defaults of a class.
-    pub(super) fn repeat(&self, stand: &Stand, class: &Class) -> Option<Repeat> {
+    pub(super) fn repeat(&self, context: &CaseContext, class: &Class) -> Option<Repeat> {
         /// Longest run that is done twice, s.
         const SHORT: f64 = 2.0;
         let time = self.time.of();
@@ -104,7 +104,7 @@ impl Report {
             .filter_map(|row| Some((row, point_of(row)?)))
             .filter(|(row, point)| point.default && row.error.is_some() && time(row) < SHORT)
             .max_by(|(a, _), (b, _)| time(a).total_cmp(&time(b)))?;
-        let again = computed(stand, class, point);
+        let again = computed(context, class, point);
         Some(Repeat {
             class: class.name.into(),
             resolution: row.resolution,

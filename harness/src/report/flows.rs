@@ -24,8 +24,8 @@ fn all(grids: &[u32], run: impl Fn(Method, u32) -> Point, finest: (u32, &[Method
 /// Decaying vortices.
 pub fn taylor_green(full: bool) -> Class {
     let run = |method, n: u32| {
-        Point::by(method, n.into(), move |stand| {
-            let found = decay::taylor_green_on(stand, n, method)?;
+        Point::by(method, n.into(), move |context| {
+            let found = decay::taylor_green_on(context, n, method)?;
             Ok(Found {
                 value: found.error,
                 tau: Some(decay::TAU_OF_VORTICES),
@@ -56,8 +56,8 @@ const CHANNEL_TAU: f64 = 0.55;
 /// A channel driven by a force.
 pub fn poiseuille(full: bool) -> Class {
     let run = |method, height: u32| {
-        Point::by(method, height.into(), move |stand| {
-            let (trial, error) = plane_walls::poiseuille_on(stand, height, CHANNEL_TAU, method)?;
+        Point::by(method, height.into(), move |context| {
+            let (trial, error) = plane_walls::poiseuille_on(context, height, CHANNEL_TAU, method)?;
             Ok(Found {
                 trial,
                 value: error,
@@ -89,8 +89,8 @@ pub fn poiseuille(full: bool) -> Class {
 /// The cavity at Re = 100.
 pub fn cavity(full: bool) -> Class {
     let run = |method, n: u32| {
-        Point::by(method, n.into(), move |stand| {
-            let found = cavity::measure(stand, n, (100.0, "Re100"), method)?;
+        Point::by(method, n.into(), move |context| {
+            let found = cavity::measure(context, n, (100.0, "Re100"), method)?;
             Ok(Found {
                 value: found.errors[2],
                 tau: Some(cavity::tau(n, 100.0)),

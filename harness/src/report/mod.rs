@@ -21,7 +21,7 @@ pub use row::{Row, Table};
 use crate::{
     bench::Machine,
     print::{duration, percent},
-    validate::Stand,
+    validate::CaseContext,
 };
 use anyhow::Context;
 use class::{Class, Point, Reference, classes, limit};
@@ -55,11 +55,11 @@ pub struct Args {
 /// If no class matches, there is no adapter, or a file cannot be written. A point that breaks off is a row, not an error.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let classes = select(args)?;
-    let stand = Stand::open(args.adapter.as_deref(), args.full)?;
+    let context = CaseContext::open(args.adapter.as_deref(), args.full)?;
     let folder = &args.out;
     std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     let path = folder.join("report.csv");
-    let info = stand.device.adapter_info();
+    let info = context.device.adapter_info();
     let form = if args.full { "full" } else { "short" };
     let own = format!("{form} form on {} ({})\n", info.name, info.driver_info);
     same_conditions(args, &own)?;
@@ -68,9 +68,9 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
         false => Table::create(&path)?,
     };
     let mut report = Report {
-        machine: Machine::of(&stand.device.adapter_info()),
+        machine: Machine::of(&context.device.adapter_info()),
         full: args.full,
-        time: match stand.software {
+        time: match context.software {
             true => Time::Cpu,
             false => Time::Wall,
         },
@@ -84,9 +84,9 @@ pub fn run(args: &Args) -> anyhow::Result<()> {
     for class in &classes {
         let points = class.points.len();
         println!("{}: {}; {points} points", class.name, class.title);
-        measure(&stand, class, &mut table)?;
+        measure(&context, class, &mut table)?;
         report.rows.clone_from(&table.rows);
-        report.repeats.extend(report.repeat(&stand, class));
+        report.repeats.extend(report.repeat(&context, class));
         report.conclude(&classes);
         report.write(folder, &classes)?;
         let chart = report.chart_of_time(class);
@@ -142,7 +142,7 @@ fn select(args: &Args) -> anyhow::Result<Vec<Class>> {
 }
 
 /// Computes the points of a class that the table lacks; each row is written to disk when it is done.
-fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()> {
+fn measure(context: &CaseContext, class: &Class, table: &mut Table) -> anyhow::Result<()> {
     let mut reference = match class.reference {
         Reference::None => Some((None, 0.0)),
         Reference::Known(value, uncertainty) => Some((Some(value), uncertainty)),
@@ -154,7 +154,7 @@ fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()
     };
     for (n, point) in class.points.iter().enumerate() {
         if table.find(class.name, point).is_none() {
-            let mut row = computed(stand, class, point);
+            let mut row = computed(context, class, point);
             if let Some((reference, uncertainty)) = reference {
                 row.compare(reference, uncertainty);
             }
@@ -184,7 +184,7 @@ fn measure(stand: &Stand, class: &Class, table: &mut Table) -> anyhow::Result<()
     Ok(())
 }
 
-fn computed(stand: &Stand, class: &Class, point: &Point) -> Row {
+fn computed(context: &CaseContext, class: &Class, point: &Point) -> Row {
     let mut row = Row {
         class: class.name.into(),
         setting: point.setting.clone(),
@@ -192,7 +192,7 @@ fn computed(stand: &Stand, class: &Class, point: &Point) -> Row {
         resolution: point.resolution,
         ..Row::default()
     };
-    row.take((point.run)(stand));
+    row.take((point.run)(context));
     row
 }
 

@@ -2,7 +2,7 @@
 
 use super::class::{Class, Found, Point, Reference, seconds};
 use crate::validate::{
-    Stand, Trial,
+    CaseContext, Trial,
     water::{dam, still, wave},
 };
 use riprap::scene::Scheme;
@@ -10,14 +10,14 @@ use riprap::scene::Scheme;
 /// Both schemes on each number of layers.
 fn both(
     layers: &[u32],
-    run: impl Fn(&Stand, u32, Scheme) -> anyhow::Result<(Trial, f64)> + Copy + 'static,
+    run: impl Fn(&CaseContext, u32, Scheme) -> anyhow::Result<(Trial, f64)> + Copy + 'static,
 ) -> Vec<Point> {
     let point = |(name, scheme), layers: u32| Point {
         setting: String::from(name),
         default: scheme == Scheme::default(),
         resolution: layers.into(),
-        run: Box::new(move |stand| {
-            let (trial, value) = run(stand, layers, scheme)?;
+        run: Box::new(move |context| {
+            let (trial, value) = run(context, layers, scheme)?;
             Ok(Found {
                 trial,
                 value,
@@ -46,8 +46,8 @@ pub fn still(full: bool) -> Class {
         update: "particle",
         reference: Reference::None,
         seconds: seconds(full, 17.0),
-        points: both(layers, |stand, layers, scheme| {
-            let found = still::measure(stand, layers, scheme)?;
+        points: both(layers, |context, layers, scheme| {
+            let found = still::measure(context, layers, scheme)?;
             Ok((found.trial, found.miss))
         }),
     }
@@ -67,8 +67,8 @@ pub fn wave(full: bool) -> Class {
         update: "particle",
         reference: Reference::Known(1.0, 0.0),
         seconds: seconds(full, 20.0),
-        points: both(layers, |stand, layers, scheme| {
-            let found = wave::measure(stand, layers, wave::LENGTHS[0], scheme)?;
+        points: both(layers, |context, layers, scheme| {
+            let found = wave::measure(context, layers, wave::LENGTHS[0], scheme)?;
             Ok((found.trial, found.period))
         }),
     }
@@ -88,8 +88,8 @@ pub fn dam(full: bool) -> Class {
         update: "particle",
         reference: Reference::Known(dam::SPEED, 0.0),
         seconds: seconds(full, 8.0),
-        points: both(columns, |stand, columns, scheme| {
-            let (trial, [speed, _]) = dam::front(stand, columns, scheme)?;
+        points: both(columns, |context, columns, scheme| {
+            let (trial, [speed, _]) = dam::front(context, columns, scheme)?;
             Ok((trial, speed))
         }),
     }

@@ -7,7 +7,7 @@ use anyhow::Result;
 use glam::DVec3;
 use riprap::{
     scene::{Field, Probe, ProbePlace},
-    sph::{Gauges, Setup, SphSolver, Water},
+    sph::{Interpolator, Setup, SphSolver, Water},
 };
 use std::path::Path;
 
@@ -82,7 +82,7 @@ fn rows(run: &mut SceneRun, probe: &Probe) -> Result<Vec<Vec<f64>>> {
     let Some(setup) = run.simulation.particles().map(SphSolver::setup) else {
         return Ok(Vec::new());
     };
-    let gauges = Gauges::new(setup, &water.positions);
+    let gauges = Interpolator::new(setup, &water.positions);
     let at = |place: [f64; 3]| at_point(&gauges, setup, &water, &probe.fields, place);
     Ok(match &probe.place {
         ProbePlace::Gauge { at } => vec![vec![gauges.level(*at).unwrap_or(f64::NAN)]],
@@ -126,7 +126,7 @@ fn components(setup: &Setup, water: &Water, field: Field) -> Vec<(Vec<f64>, DVec
 
 /// The components of fields at a point; NaN without water.
 fn at_point(
-    gauges: &Gauges<'_>,
+    gauges: &Interpolator<'_>,
     setup: &Setup,
     water: &Water,
     fields: &[Field],

@@ -3,7 +3,7 @@
 use super::{rock::Rock, scene_run::SceneRun, summary::Summary};
 use crate::{print, search::left_out};
 use riprap::{
-    lattice::{Lattice, bytes_a_cell},
+    lattice::{Lattice, bytes_per_cell},
     sph::SphSolver,
     units::Units,
 };
@@ -64,7 +64,7 @@ fn print_lattice(run: &SceneRun, summary: &Summary, lattice: &Lattice, units: &U
     eprintln!(
         "            copies {:.1} GB/s; the kernel moves {} bytes per cell and step",
         bandwidth / 1e9,
-        bytes_a_cell(setup)
+        bytes_per_cell(setup)
     );
     let memory = run.memory.as_ref().map(|memory| {
         format!(

@@ -4,7 +4,7 @@ use super::{recorder::RunLog, scene_run::SceneRun, throughput::Throughput};
 use riprap::{
     Result,
     coupling::Exchanges,
-    lattice::{bytes_a_cell, bytes_a_step},
+    lattice::{bytes_per_cell, bytes_per_step},
     simulation::Simulation,
 };
 use serde::Serialize;
@@ -28,9 +28,9 @@ pub struct LatticeSummary {
     /// Copy bandwidth of the device, read and written bytes per second.
     pub bandwidth: f64,
     /// Bytes that a step moves per fluid cell away from walls.
-    pub bytes_a_cell: u64,
+    pub bytes_per_cell: u64,
     /// Bytes that a step moves in all.
-    pub bytes_a_step: u64,
+    pub bytes_per_step: u64,
     /// Fraction of that bandwidth that the steps use.
     pub bandwidth_share: f64,
     /// Largest observed Mach number of the lattice.
@@ -61,8 +61,8 @@ impl LatticeSummary {
                 if setup.wale.is_some() { " Wale" } else { "" }
             ),
             bandwidth: run.bandwidth()?,
-            bytes_a_cell: bytes_a_cell(setup),
-            bytes_a_step: bytes_a_step(setup, lattice.grid(), lattice.geometry()),
+            bytes_per_cell: bytes_per_cell(setup),
+            bytes_per_step: bytes_per_step(setup, lattice.grid(), lattice.geometry()),
             ..Self::default()
         }))
     }
@@ -73,7 +73,7 @@ impl LatticeSummary {
         let rate = warm.rate(warm.steps);
         Self {
             mlups: rate * self.fluid_cells as f64 / 1e6,
-            bandwidth_share: rate * self.bytes_a_step as f64 / self.bandwidth,
+            bandwidth_share: rate * self.bytes_per_step as f64 / self.bandwidth,
             ..self.clone()
         }
     }

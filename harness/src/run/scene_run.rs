@@ -3,9 +3,9 @@
 use super::{
     collection, gauges,
     lattice::{Coupling, LatticeSummary},
-    left_out::LeftOut,
     recorder::{Recorders, RunLog, Schedule},
     rock::{Rock, Rocks, block_probe},
+    skipped_work::SkippedWork,
     slices,
     summary::Summary,
     table::TimeTable,
@@ -18,7 +18,7 @@ use crate::{bench::copy_bandwidth, gpu, search};
 use riprap::{
     Error, Result,
     lattice::{Lattice, Memory},
-    output::{Array, Image},
+    output::{Array, ImageData},
     rock::{Block, EnergyLedger},
     scene::{Field, Probe, ProbePlace, Scene, build::block_setup},
     simulation::{
@@ -251,7 +251,7 @@ impl SceneRun {
     ///
     /// # Errors
     /// Returns the errors of [`Simulation::image`].
-    pub fn image(&mut self, fields: &[Field]) -> Result<Image> {
+    pub fn image(&mut self, fields: &[Field]) -> Result<ImageData> {
         let image = self.simulation.image(fields);
         drive(self.device.as_ref(), "reading the fields", image)
     }
@@ -431,7 +431,8 @@ impl SceneRun {
             coupling: Coupling::of(&self.simulation, 0),
             rocks: self.rocks(Rocks::of(self)),
             pool: WaterSummary::of(self),
-            left_out: lattice.map_or_else(Vec::new, |(lattice, _)| LeftOut::of_lattice(lattice)),
+            left_out: lattice
+                .map_or_else(Vec::new, |(lattice, _)| SkippedWork::of_lattice(lattice)),
             ..Summary::default()
         })
     }

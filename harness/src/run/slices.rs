@@ -10,7 +10,7 @@ use crate::{
     render::Colours,
 };
 use riprap::{
-    output::Image,
+    output::ImageData,
     scene::{self, Field, SliceField},
     simulation::probe::Layer,
 };
@@ -46,7 +46,7 @@ pub fn recorder(
         if shown.field.is_statistical() && run.simulation.samples() == 0 {
             return Ok(());
         }
-        let image = Image {
+        let image = ImageData {
             arrays: run.read(&fields, layer.cells())?,
             ..layer.frame()
         };

@@ -3,10 +3,10 @@
 use super::{
     estimate::Estimate,
     lattice::{Coupling, LatticeSummary},
-    left_out::LeftOut,
     progress::clock,
     recorder::RunLog,
     rock::{Rocks, Safety},
+    skipped_work::SkippedWork,
     statistics::Converged,
     walls::WallModelSummary,
     water::{Energies, WaterSummary},
@@ -78,7 +78,7 @@ pub struct Summary {
     pub rocks: Option<Rocks>,
     /// Work that was skipped because nothing needed it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<SkippedWork>,
     /// Factors of safety of the blocks whose probes request them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub safety: Vec<Safety>,
@@ -106,10 +106,11 @@ impl Summary {
     pub fn tell_left_out(&mut self) {
         let (coupling, rocks, pool) = (&self.coupling, &self.rocks, &self.pool);
         self.left_out
-            .extend(coupling.iter().flat_map(LeftOut::of_coupling));
+            .extend(coupling.iter().flat_map(SkippedWork::of_coupling));
         self.left_out
-            .extend(rocks.iter().flat_map(LeftOut::of_rocks));
-        self.left_out.extend(pool.iter().flat_map(LeftOut::of_pool));
+            .extend(rocks.iter().flat_map(SkippedWork::of_rocks));
+        self.left_out
+            .extend(pool.iter().flat_map(SkippedWork::of_pool));
     }
 
     /// Writes `summary.json` into `folder` and lists it among the files.
@@ -195,7 +196,7 @@ impl fmt::Display for Summary {
         for safety in &self.safety {
             writeln!(f, "  {safety}")?;
         }
-        if let Some(line) = LeftOut::line(&self.left_out) {
+        if let Some(line) = SkippedWork::line(&self.left_out) {
             writeln!(f, "  ran {line}")?;
         }
         for warning in &self.warnings {

@@ -2,7 +2,7 @@
 
 use super::{Cell, Map, Outcome, Sink, tally::Peaks};
 use crate::validate::{
-    Stand,
+    CaseContext,
     tank::{self, Tank, block, numbers, turn},
 };
 use riprap::scene::{BlockShape, Motion};
@@ -30,25 +30,30 @@ const RISE: f64 = 1.05;
 /// Readings of the energy in a run.
 const LOOKS: u64 = 10;
 
-fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
-    let (ratios, machs): (&[f64], &[f64]) = match stand.full {
+fn run(context: &CaseContext, sink: &mut Sink) -> anyhow::Result<()> {
+    let (ratios, machs): (&[f64], &[f64]) = match context.full {
         true => (&RATIO, &MACH),
         false => (&SHORT_RATIO, &SHORT_MACH),
     };
-    let steps = if stand.full { 1000 } else { 150 };
+    let steps = if context.full { 1000 } else { 150 };
     for &ratio in ratios {
         for &mach in machs {
-            sink.add(measure(stand, Some(ratio), mach, steps)?)?;
+            sink.add(measure(context, Some(ratio), mach, steps)?)?;
         }
     }
     for &mach in machs {
-        sink.add(measure(stand, None, mach, steps)?)?;
+        sink.add(measure(context, None, mach, steps)?)?;
     }
     Ok(())
 }
 
 /// A free block with the density `ratio`, or a driven one.
-fn measure(stand: &Stand, ratio: Option<f64>, mach: f64, steps: u64) -> anyhow::Result<Cell> {
+fn measure(
+    context: &CaseContext,
+    ratio: Option<f64>,
+    mach: f64,
+    steps: u64,
+) -> anyhow::Result<Cell> {
     let speed = mach / 3f64.sqrt();
     let mut scene = tank::scene(CELLS, TAU)?;
     scene.numerics.velocity_scale = Some(speed);
@@ -72,7 +77,7 @@ fn measure(stand: &Stand, ratio: Option<f64>, mach: f64, steps: u64) -> anyhow::
         "largest energy / that of the start; driven: largest max|u| / U₀",
     );
     let mut cell = cell.run(|cell| {
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         cell.warned = super::warned(tank.simulation.advice());
         let peaks = Peaks::of(&mut tank, ratio.unwrap_or(1.0), [steps, LOOKS], cell)?;
         let [of_block, of_flow] = [peaks.block_speed, peaks.flow_speed].map(|u| u / speed);

@@ -2,7 +2,7 @@
 
 use super::{Cell, Map, Outcome, Sink, tally::Tally};
 use crate::validate::{
-    Stand, fields,
+    CaseContext, fields,
     tank::{self, Tank, block, numbers, turn},
 };
 use riprap::scene::{BlockShape, Motion, Scene};
@@ -56,13 +56,13 @@ fn scene(rows: [u32; 3]) -> anyhow::Result<Scene> {
     Ok(scene)
 }
 
-fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
-    let (rows, parts, steps) = match stand.full {
+fn run(context: &CaseContext, sink: &mut Sink) -> anyhow::Result<()> {
+    let (rows, parts, steps) = match context.full {
         true => ([5, 5, 4], 10, 1000),
         false => ([3; 3], 4, 100),
     };
     let scene = scene(rows)?;
-    let mut tank = Tank::fill(stand, &scene)?;
+    let mut tank = Tank::fill(context, &scene)?;
     let before = Tally::of(&mut tank, RATIO)?;
     // Pools of the driver and of the allocator fill in the first half: what grows afterwards grows without end.
     let mut warm = (None, 0);
@@ -103,7 +103,7 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
         // Buffers grow by half as blocks reach more bricks, at most to all bricks.
         report("growth of the buffers", growth, 0.5, text)?;
     }
-    repeats(stand, &scene, steps, sink)
+    repeats(context, &scene, steps, sink)
 }
 
 fn cell(tank: &Tank<'_>, name: &str, begin: Instant) -> Cell {
@@ -131,13 +131,18 @@ fn judged(cell: Cell, value: f64, limit: f64, detail: String) -> Cell {
 }
 
 /// Runs the first part twice more and compares the states.
-fn repeats(stand: &Stand, scene: &Scene, steps: u64, sink: &mut Sink) -> anyhow::Result<()> {
+fn repeats(
+    context: &CaseContext,
+    scene: &Scene,
+    steps: u64,
+    sink: &mut Sink,
+) -> anyhow::Result<()> {
     let begin = Instant::now();
     let once = || -> anyhow::Result<_> {
-        let mut tank = Tank::fill(stand, scene)?;
+        let mut tank = Tank::fill(context, scene)?;
         tank.advance(steps)?;
         // Everything that the next steps depend on.
-        let state = stand.drive("the state", tank.simulation.checkpoint())??;
+        let state = context.drive("the state", tank.simulation.checkpoint())??;
         let mut bytes = Vec::new();
         state.write_to(&mut bytes)?;
         let name = "bytes that differ in a second run";

@@ -20,7 +20,7 @@ pub use sink::Sink;
 use crate::{
     bench::Machine,
     picture::{ColourGrid, GridPanel, Square},
-    validate::Stand,
+    validate::CaseContext,
 };
 use plotters::style::RGBColor;
 use riprap::scene::Advice;
@@ -67,15 +67,15 @@ fn bytes_that_differ(a: &[u8], b: &[u8]) -> usize {
 /// # Errors
 /// If there is no adapter, or the files cannot be written.
 pub fn run(args: &Args) -> anyhow::Result<bool> {
-    let stand = Stand::open(args.adapter.as_deref(), args.full)?;
-    let mut sink = Sink::begin(&args.out, Machine::of(&stand.device.adapter_info()))?;
+    let context = CaseContext::open(args.adapter.as_deref(), args.full)?;
+    let mut sink = Sink::begin(&args.out, Machine::of(&context.device.adapter_info()))?;
     let begin = Instant::now();
     let wanted = |map: &&Map| args.only.as_ref().is_none_or(|only| only == map.name);
     for map in MAPS.iter().filter(wanted) {
         let before = Instant::now();
         println!("{}: {}", map.name, map.title);
         println!("  {}", map.extent(args.full));
-        (map.run)(&stand, &mut sink)?;
+        (map.run)(&context, &mut sink)?;
         map.draw(&sink)?;
         for line in map.summary(&sink.of(map.name)) {
             println!("  {line}");
@@ -109,7 +109,7 @@ pub struct Map {
     /// Extent of the full form.
     pub full: &'static str,
     /// Runs its cells.
-    pub run: fn(&Stand, &mut Sink) -> anyhow::Result<()>,
+    pub run: fn(&CaseContext, &mut Sink) -> anyhow::Result<()>,
 }
 
 /// All maps, in the order in which they run.

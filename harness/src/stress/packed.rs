@@ -2,7 +2,7 @@
 
 use super::{Cell, Map, Outcome, Sink, tally::Peaks};
 use crate::validate::{
-    Stand,
+    CaseContext,
     tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, EddyViscosity, Motion, Scene};
@@ -33,16 +33,16 @@ const SHORT_MACH: [f64; 3] = [0.1, 0.2, 0.3];
 const RISE: f64 = 1.05;
 const LOOKS: u64 = 6;
 
-fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
-    let (gaps, machs): (&[f64], &[f64]) = match stand.full {
+fn run(context: &CaseContext, sink: &mut Sink) -> anyhow::Result<()> {
+    let (gaps, machs): (&[f64], &[f64]) = match context.full {
         true => (&GAP, &MACH),
         false => (&SHORT_GAP, &SHORT_MACH),
     };
-    let steps = if stand.full { 2000 } else { 120 };
+    let steps = if context.full { 2000 } else { 120 };
     for motion in [Motion::Free, Motion::Fixed] {
         for &gap in gaps {
             for &mach in machs {
-                sink.add(measure(stand, motion, gap, mach, steps)?)?;
+                sink.add(measure(context, motion, gap, mach, steps)?)?;
             }
         }
     }
@@ -66,7 +66,13 @@ fn scene(motion: Motion, gap: f64, speed: f64) -> anyhow::Result<Scene> {
     Ok(scene)
 }
 
-fn measure(stand: &Stand, motion: Motion, gap: f64, mach: f64, steps: u64) -> anyhow::Result<Cell> {
+fn measure(
+    context: &CaseContext,
+    motion: Motion,
+    gap: f64,
+    mach: f64,
+    steps: u64,
+) -> anyhow::Result<Cell> {
     let speed = mach / 3f64.sqrt();
     let panel = if motion == Motion::Free {
         "free"
@@ -77,7 +83,7 @@ fn measure(stand: &Stand, motion: Motion, gap: f64, mach: f64, steps: u64) -> an
     let cell = Cell::new(MAP.name, panel, y, x, "largest max|u| / U₀");
     let scene = scene(motion, gap, speed)?;
     let mut cell = cell.run(|cell| {
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         cell.warned = super::warned(tank.simulation.advice());
         let peaks = Peaks::of(&mut tank, RATIO, [steps, LOOKS], cell)?;
         cell.value = Some(peaks.flow_speed / speed);

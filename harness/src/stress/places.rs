@@ -1,7 +1,7 @@
 //! Blocks in critical positions: each scene runs, or ends with an error that says what to change.
 
 use super::{Cell, Map, Outcome, Sink};
-use crate::validate::{Stand, tank::Tank};
+use crate::validate::{CaseContext, tank::Tank};
 use riprap::scene::Scene;
 use serde::Deserialize;
 use std::path::Path;
@@ -40,11 +40,11 @@ fn places() -> anyhow::Result<Places> {
     Ok(toml::from_str(include_str!("places.toml"))?)
 }
 
-fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
-    let steps = if stand.full { 5000 } else { 300 };
+fn run(context: &CaseContext, sink: &mut Sink) -> anyhow::Result<()> {
+    let steps = if context.full { 5000 } else { 300 };
     let all = places()?;
     for place in &all.places {
-        sink.add(measure(stand, place, &all, steps)?)?;
+        sink.add(measure(context, place, &all, steps)?)?;
     }
     Ok(())
 }
@@ -66,11 +66,11 @@ impl Place {
     }
 }
 
-fn measure(stand: &Stand, place: &Place, all: &Places, steps: u64) -> anyhow::Result<Cell> {
+fn measure(context: &CaseContext, place: &Place, all: &Places, steps: u64) -> anyhow::Result<Cell> {
     let (y, x) = (place.name.clone(), "outcome".into());
     let cell = Cell::new(MAP.name, "", y, x, "steps until the error");
     let mut cell = cell.run(|cell| {
-        let mut tank = Tank::fill(stand, &place.scene(all)?)?;
+        let mut tank = Tank::fill(context, &place.scene(all)?)?;
         cell.warned = super::warned(tank.simulation.advice());
         while tank.simulation.step() < steps {
             let done = tank.advance(50);

@@ -1,7 +1,7 @@
 //! Runs that are interrupted twenty times and continued from files, compared with uninterrupted ones.
 
 use super::{Cell, Map, Outcome, Sink};
-use crate::validate::Stand;
+use crate::validate::CaseContext;
 use riprap::{
     scene::Scene,
     simulation::{Simulation, checkpoint::Checkpoint},
@@ -25,9 +25,9 @@ const FLOW: &str = include_str!("restart_flow.toml");
 const ROCK: &str = include_str!("restart_rock.toml");
 const WATER: &str = include_str!("restart_water.toml");
 
-fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
+fn run(context: &CaseContext, sink: &mut Sink) -> anyhow::Result<()> {
     // Odd in the full form, alternately odd and even in the short one.
-    let part = |n: u64| if stand.full { 51 } else { 3 + n % 2 };
+    let part = |n: u64| if context.full { 51 } else { 3 + n % 2 };
     let file = sink.folder().join("restart.state");
     let scenes = [
         ("blocks in a flow", FLOW),
@@ -38,9 +38,9 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
         let begin = Instant::now();
         let scene = Scene::from_toml(text, Path::new("."), "stress")?;
         let steps: u64 = (0..CUTS).map(part).sum();
-        let whole = run_in_parts(stand, &scene, &file, &[steps])?;
+        let whole = run_in_parts(context, &scene, &file, &[steps])?;
         let parts: Vec<u64> = (0..CUTS).map(part).collect();
-        let cut = run_in_parts(stand, &scene, &file, &parts)?;
+        let cut = run_in_parts(context, &scene, &file, &parts)?;
         let differ = super::bytes_that_differ(&whole, &cut);
         let quantity = "bytes of the state that differ at the end";
         let (y, x) = (name.into(), "bytes that differ".into());
@@ -62,19 +62,19 @@ fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
 
 /// Creates a new simulation for each part, continues from the file and writes it. Returns its bytes at the end.
 fn run_in_parts(
-    stand: &Stand,
+    context: &CaseContext,
     scene: &Scene,
     file: &Path,
     parts: &[u64],
 ) -> anyhow::Result<Vec<u8>> {
     for (n, steps) in parts.iter().enumerate() {
-        let made = Simulation::new(&stand.device, &stand.queue, scene);
-        let mut simulation = stand.drive("the kernels", made)??;
+        let made = Simulation::new(&context.device, &context.queue, scene);
+        let mut simulation = context.drive("the kernels", made)??;
         if n > 0 {
             simulation.restore(&Checkpoint::read(file)?)?;
         }
-        stand.drive("the steps", simulation.advance(*steps))??;
-        let state = stand.drive("the state", simulation.checkpoint())??;
+        context.drive("the steps", simulation.advance(*steps))??;
+        let state = context.drive("the state", simulation.checkpoint())??;
         state.write(file)?;
     }
     Ok(std::fs::read(file)?)

@@ -4,7 +4,7 @@
 use super::{Cell, Map, Outcome, Sink};
 use crate::{
     bench,
-    validate::{Flow, Stand, fields, record},
+    validate::{CaseContext, Flow, fields, record},
 };
 use riprap::{
     Error,
@@ -106,8 +106,8 @@ impl Method {
         )
     }
 
-    fn setup(&self, stand: &Stand, nu: f64) -> Setup {
-        let mut setup = stand.setup(CELLS, nu);
+    fn setup(&self, context: &CaseContext, nu: f64) -> Setup {
+        let mut setup = context.setup(CELLS, nu);
         (setup.collision, setup.equilibrium) = (self.collision, self.equilibrium);
         setup.wale = self.wale.then_some(0.5);
         setup.storage = self.storage;
@@ -153,16 +153,16 @@ fn start(speed: f64) -> State {
     })
 }
 
-fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
-    let (nus, machs): (&[f64], &[f64]) = match stand.full {
+fn run(context: &CaseContext, sink: &mut Sink) -> anyhow::Result<()> {
+    let (nus, machs): (&[f64], &[f64]) = match context.full {
         true => (&NU, &MACH),
         false => (&SHORT_NU, &SHORT_MACH),
     };
-    let steps = if stand.full { 10_000 } else { 3000 };
-    for method in Method::all(stand.full) {
+    let steps = if context.full { 10_000 } else { 3000 };
+    for method in Method::all(context.full) {
         for &nu in nus {
             for &mach in machs {
-                let mut cell = measure(stand, &method, nu, mach, steps)?;
+                let mut cell = measure(context, &method, nu, mach, steps)?;
                 cell.detail += &against_f32(sink, &method, &cell);
                 sink.add(cell)?;
             }
@@ -192,11 +192,17 @@ fn against_f32(sink: &Sink, method: &Method, cell: &Cell) -> String {
     })
 }
 
-fn measure(stand: &Stand, method: &Method, nu: f64, mach: f64, steps: u64) -> anyhow::Result<Cell> {
+fn measure(
+    context: &CaseContext,
+    method: &Method,
+    nu: f64,
+    mach: f64,
+    steps: u64,
+) -> anyhow::Result<Cell> {
     let begin = Instant::now();
     let speed = mach / 3f64.sqrt();
     let advice = advice(nu, speed, &method.numerics())?;
-    let mut flow = stand.flow(method.setup(stand, nu), &start(speed), true)?;
+    let mut flow = context.flow(method.setup(context, nu), &start(speed), true)?;
     let found = follow(&mut flow, steps, speed)?;
     // Pressure stores about Ma² of the energy, which may be returned; a flow without forces cannot gain more.
     let gains = found.gain > mach * mach;

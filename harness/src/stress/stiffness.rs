@@ -2,7 +2,7 @@
 
 use super::{Cell, Map, Outcome, Sink};
 use crate::validate::{
-    Stand,
+    CaseContext,
     rock::{G, Rock, cuboid, floor, joint, setup},
 };
 use glam::DVec3;
@@ -43,8 +43,8 @@ fn blocks(stiffness: f64) -> anyhow::Result<Setup> {
     Ok(setup(list, joint(stiffness, 30.0)))
 }
 
-fn run(stand: &Stand, sink: &mut Sink) -> anyhow::Result<()> {
-    let time = if stand.full { 5.0 } else { 0.3 };
+fn run(context: &CaseContext, sink: &mut Sink) -> anyhow::Result<()> {
+    let time = if context.full { 5.0 } else { 0.3 };
     for stiffness in STIFFNESS {
         let usual = shortest(stiffness, time)?;
         for step in STEP {

@@ -3,7 +3,7 @@
 
 use crate::run::{Rock, SceneRun, fluid_wrench};
 use glam::DVec3;
-use riprap::safety::Footing;
+use riprap::safety::Supports;
 use serde::Serialize;
 use std::fmt;
 
@@ -94,7 +94,7 @@ impl Loads {
 struct Block {
     number: usize,
     name: String,
-    footing: Footing,
+    supports: Supports,
     buoyancy: DVec3,
 }
 
@@ -104,7 +104,7 @@ impl Block {
         Self {
             number,
             name: rock.blocks.name(number).into(),
-            footing: Footing::of(rock.setup, rock.blocks, number),
+            supports: Supports::of(rock.setup, rock.blocks, number),
             buoyancy: -density * volume * rock.blocks.gravity(),
         }
     }
@@ -113,7 +113,7 @@ impl Block {
     fn factor(&self, [force, torque]: Wrench, times: f64) -> (f64, &'static str) {
         let force = self.buoyancy + times * (force - self.buoyancy);
         let wrench = [force, times * torque];
-        let found = self.footing.under(wrench);
+        let found = self.supports.under(wrench);
         let uplift = (found.uplift, "uplift");
         // A block that is lifted slides and topples too; without contacts neither factor is known.
         if uplift.0 < 1.0 {
@@ -212,7 +212,7 @@ mod tests {
         Block {
             number: 0,
             name: "cube".into(),
-            footing: Footing::of(&setup, &blocks, 0),
+            supports: Supports::of(&setup, &blocks, 0),
             buoyancy: DVec3::Z * 10.0,
         }
     }

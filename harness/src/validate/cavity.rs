@@ -1,6 +1,6 @@
 //! Lid-driven cavity against the tables of Ghia, Ghia & Shin 1982.
 
-use super::{Method, Outcome, Stand, Trial, fields};
+use super::{CaseContext, Method, Outcome, Trial, fields};
 use anyhow::Context;
 use riprap::lattice::{Face, State};
 use serde_json::Value;
@@ -28,21 +28,21 @@ pub fn list(table: &Value, names: [&str; 2]) -> anyhow::Result<Vec<f64>> {
 }
 
 /// Re = 100 on 64 cells; with `--full` also on 128.
-pub fn re100(stand: &Stand) -> Outcome {
-    let sizes: &[u32] = if stand.full { &[64, 128] } else { &[64] };
-    run(stand, sizes, 100.0, "Re100", 0.005)
+pub fn re100(context: &CaseContext) -> Outcome {
+    let sizes: &[u32] = if context.full { &[64, 128] } else { &[64] };
+    run(context, sizes, 100.0, "Re100", 0.005)
 }
 
 /// Re = 1000 on 64 cells for comparison and on 128.
-pub fn re1000(stand: &Stand) -> Outcome {
-    run(stand, &[64, 128], 1000.0, "Re1000", 0.01)
+pub fn re1000(context: &CaseContext) -> Outcome {
+    run(context, &[64, 128], 1000.0, "Re1000", 0.01)
 }
 
 /// `limit` bounds the rms error on the centre lines over U on the finest grid.
-fn run(stand: &Stand, sizes: &[u32], reynolds: f64, column: &str, limit: f64) -> Outcome {
+fn run(context: &CaseContext, sizes: &[u32], reynolds: f64, column: &str, limit: f64) -> Outcome {
     let mut records = Vec::new();
     for &n in sizes {
-        let found = measure(stand, n, (reynolds, column), Method::DEFAULT)?;
+        let found = measure(context, n, (reynolds, column), Method::DEFAULT)?;
         let (trial, [of_u, of_v, of_both]) = (found.trial, found.errors);
         for (name, error) in [("u", of_u), ("v", of_v)] {
             let quantity = format!("rms error of {name} / U, {n} cells");
@@ -77,7 +77,7 @@ pub struct Cavity {
 
 /// Runs the cavity on `n` cells along each edge; `column` names the published values for the Reynolds number.
 pub fn measure(
-    stand: &Stand,
+    context: &CaseContext,
     n: u32,
     (reynolds, column): (f64, &str),
     method: Method,
@@ -87,13 +87,13 @@ pub fn measure(
     let u = list(&tables, ["ghia_1982_u_x0.5", column])?;
     let v_at = list(&tables, ["ghia_1982_v_y0.5", "x"])?;
     let v = list(&tables, ["ghia_1982_v_y0.5", column])?;
-    let mut setup = stand.setup([n, n, 4], viscosity(n, reynolds));
+    let mut setup = context.setup([n, n, 4], viscosity(n, reynolds));
     setup.faces[0] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
     setup.faces[1] = [Face::Wall([0.0; 3]), Face::Wall([SPEED, 0.0, 0.0])];
     method.arrange(&mut setup);
     let turn = (f64::from(n) / SPEED).round() as u64;
     let mut before = State::rest((4 * n * n) as usize);
-    let mut flow = stand.flow(setup, &before, false)?;
+    let mut flow = context.flow(setup, &before, false)?;
     let mut change = f64::INFINITY;
     let (mut least, mut since) = (f64::INFINITY, 0);
     while change > STEADY && since < STALLED && flow.trial().steps < LONGEST * turn {

@@ -1,6 +1,6 @@
 //! Vortices and shear waves that keep their shape as they decay: order of convergence and viscosity.
 
-use super::{Method, Outcome, Stand, Trial, fields};
+use super::{CaseContext, Method, Outcome, Trial, fields};
 use riprap::lattice::Equilibrium;
 use std::f64::consts::{LN_2, TAU};
 
@@ -40,18 +40,18 @@ const TAYLOR_GREEN: Vortices = Vortices {
 };
 
 /// Order of convergence and viscosity of the vortices of Taylor & Green.
-pub fn taylor_green(stand: &Stand) -> Outcome {
-    convergence(stand, &TAYLOR_GREEN)
+pub fn taylor_green(context: &CaseContext) -> Outcome {
+    convergence(context, &TAYLOR_GREEN)
 }
 
 /// The vortices of Taylor & Green on `n` cells along each edge.
-pub fn taylor_green_on(stand: &Stand, n: u32, method: Method) -> anyhow::Result<Decay> {
-    TAYLOR_GREEN.decay(stand, n, method)
+pub fn taylor_green_on(context: &CaseContext, n: u32, method: Method) -> anyhow::Result<Decay> {
+    TAYLOR_GREEN.decay(context, n, method)
 }
 
 /// Arnold, Beltrami & Childress (Dombre et al. 1986), A = B = C: curl u = u, so that p + u²/2 is
 /// the same everywhere.
-pub fn abc_flow(stand: &Stand) -> Outcome {
+pub fn abc_flow(context: &CaseContext) -> Outcome {
     fn velocity([x, y, z]: [f64; 3]) -> [f64; 3] {
         // The largest speed of the sum is about 2.
         [
@@ -61,7 +61,7 @@ pub fn abc_flow(stand: &Stand) -> Outcome {
         ]
     }
     convergence(
-        stand,
+        context,
         &Vortices {
             flat: false,
             rate: 1.0,
@@ -84,7 +84,7 @@ pub struct Decay {
 }
 
 impl Vortices {
-    fn decay(&self, stand: &Stand, n: u32, method: Method) -> anyhow::Result<Decay> {
+    fn decay(&self, context: &CaseContext, n: u32, method: Method) -> anyhow::Result<Decay> {
         let cells = [n, n, if self.flat { 4 } else { n }];
         let k = TAU / f64::from(n);
         let speed = COARSE_SPEED * f64::from(SIZES[0]) / f64::from(n);
@@ -96,9 +96,9 @@ impl Vortices {
             (excess, (self.velocity)(at).map(|u| speed * u))
         });
         let half = (0.5 * self.loss / (self.rate * NU * k * k)).round();
-        let mut setup = stand.setup(cells, NU);
+        let mut setup = context.setup(cells, NU);
         method.arrange(&mut setup);
-        let mut run = stand.flow(setup, &start, true)?;
+        let mut run = context.flow(setup, &start, true)?;
         let mode = |at| (self.velocity)(scaled(at)).map(|u| speed * u);
         run.advance(half as u64)?;
         let middle = fields::amplitude(cells, &run.state()?, mode);
@@ -113,11 +113,11 @@ impl Vortices {
     }
 }
 
-fn convergence(stand: &Stand, flow: &Vortices) -> Outcome {
+fn convergence(context: &CaseContext, flow: &Vortices) -> Outcome {
     let mut records = Vec::new();
     let mut errors = Vec::new();
     for n in SIZES {
-        let found = flow.decay(stand, n, Method::DEFAULT)?;
+        let found = flow.decay(context, n, Method::DEFAULT)?;
         let trial = found.trial;
         records.push(trial.report(format!("L2 error of u, {n} cells"), found.error));
         let quantity = format!("viscosity / nominal, {n} cells");
@@ -144,7 +144,7 @@ const CROSSINGS: f64 = 8.0;
 const LIMIT: f64 = 1e-3;
 
 /// Galilean invariance: a shear wave carried along an axis decays like one at rest.
-pub fn shear_wave(stand: &Stand) -> Outcome {
+pub fn shear_wave(context: &CaseContext) -> Outcome {
     // With the equilibrium of order 2 the viscosity falls as 1 − 3U² (Qian & Orszag 1993).
     let runs = [
         (Equilibrium::Product, 0.0, 1.0, Some(LIMIT)),
@@ -156,13 +156,13 @@ pub fn shear_wave(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (equilibrium, speed, expected, limit) in runs {
         let cells = [WAVE_CELLS, 4, 4];
-        let mut setup = stand.setup(cells, WAVE_NU);
+        let mut setup = context.setup(cells, WAVE_NU);
         setup.equilibrium = equilibrium;
         let k = TAU / f64::from(WAVE_CELLS);
         let start = fields::state(cells, |[x, _, _]| {
             (0.0, [speed, WAVE_SPEED * (k * x).sin(), 0.0])
         });
-        let mut flow = stand.flow(setup, &start, true)?;
+        let mut flow = context.flow(setup, &start, true)?;
         // Whole crossings at both speeds, so that a wave that is not quite a sine is weighted equally both times.
         let steps = CROSSINGS / 2.0 * f64::from(WAVE_CELLS) / 0.1;
         let mut size = || -> anyhow::Result<f64> {

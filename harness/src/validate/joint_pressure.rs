@@ -5,7 +5,7 @@
 //! slot of half the length.
 
 use super::{
-    Outcome, Stand, Trial,
+    CaseContext, Outcome, Trial,
     tank::{self, Tank, block},
 };
 use anyhow::Context;
@@ -37,10 +37,10 @@ const CLOSED_LIMIT: f64 = 0.05;
 const RESOLVED_LIMIT: f64 = 0.03;
 
 /// Runs the case.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for joint in closed().into_iter().chain(open()) {
-        records.extend(joint.measure(stand)?);
+        records.extend(joint.measure(context)?);
     }
     Ok(records)
 }
@@ -111,14 +111,14 @@ struct Joint {
 }
 
 impl Joint {
-    fn measure(&self, stand: &Stand) -> Outcome {
+    fn measure(&self, context: &CaseContext) -> Outcome {
         let slot = self.slot();
         let length = f64::from(self.length - self.width) - 0.5;
-        let (found, trial) = self.sine(stand)?;
+        let (found, trial) = self.sine(context)?;
         let exact = slot.transfer(Complex::new(0.0, TAU / self.period), length);
         let delay = |ratio: Complex<f64>| -ratio.arg() / TAU;
         let every = (self.period / 128.0).ceil() as u64;
-        let rise = self.rise(stand, every)?;
+        let rise = self.rise(context, every)?;
         let should = half(predicted(slot, length, every, &rise).into_iter(), every);
         let middle = half(rise.iter().map(|p| p[1]), every);
         let judge = |what: &str, found: f64, exact: f64| {
@@ -172,7 +172,7 @@ impl Joint {
         }
     }
 
-    fn fill<'a>(&self, stand: &'a Stand, pressure: &str) -> anyhow::Result<Tank<'a>> {
+    fn fill<'a>(&self, context: &'a CaseContext, pressure: &str) -> anyhow::Result<Tank<'a>> {
         let length = 2 * self.length;
         let lower = match self.bed {
             Bed::Wall => 0.0,
@@ -205,7 +205,7 @@ impl Joint {
         if lower > 0.0 {
             scene.blocks.push(slab(0.0, lower));
         }
-        Tank::fill(stand, &scene)
+        Tank::fill(context, &scene)
     }
 
     /// Mean pressures across the joint every `every` steps: in the middle, and inside a mouth by the width of the joint, because
@@ -238,11 +238,11 @@ impl Joint {
     }
 
     /// Ratio of the pressure in the middle to that near the mouth, for a sinusoidal pressure.
-    fn sine(&self, stand: &Stand) -> anyhow::Result<(Complex<f64>, Trial)> {
+    fn sine(&self, context: &CaseContext) -> anyhow::Result<(Complex<f64>, Trial)> {
         let Self { period, .. } = *self;
         let omega = TAU / period;
         let text = format!("{PRESSURE}*min(1, t/{period})*sin({omega}*t)");
-        let mut tank = self.fill(stand, &text)?;
+        let mut tank = self.fill(context, &text)?;
         tank.advance(SETTLE * period as u64)?;
         let begin = tank.simulation.step();
         // A whole number of samples per period.
@@ -259,8 +259,8 @@ impl Joint {
     }
 
     /// Pressures near the mouth and in the middle after a rise of the pressure.
-    fn rise(&self, stand: &Stand, every: u64) -> anyhow::Result<Vec<[f64; 2]>> {
-        let mut tank = self.fill(stand, &format!("{PRESSURE}*min(1, t/{RAMP})"))?;
+    fn rise(&self, context: &CaseContext, every: u64) -> anyhow::Result<Vec<[f64; 2]>> {
+        let mut tank = self.fill(context, &format!("{PRESSURE}*min(1, t/{RAMP})"))?;
         let times = 1.25 * self.period / every as f64;
         self.sample(&mut tank, every, times as u64)
     }

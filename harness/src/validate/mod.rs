@@ -1,14 +1,14 @@
 //! Validation: flows with a known solution, run on the user's device and judged against published limits.
 //!
-//! A case is a function that runs flows on a [`Stand`] and returns [`Record`]s: the value found, the expected value, the error,
+//! A case is a function that runs flows on a [`CaseContext`] and returns [`Record`]s: the value found, the expected value, the error,
 //! the limit and the cost. Cases are named `family/case`, one file per family. The short form takes minutes on a CPU adapter with
 //! two cores; `--full` adds the fine grids and long runs. Flows are in lattice units: cell, step and density of the fluid are 1.
 //! Dry blocks, in SI, run on the host.
 
+pub mod context;
 pub mod fields;
 pub mod method;
 pub mod record;
-pub mod stand;
 pub mod tank;
 
 pub(crate) mod cavity;
@@ -60,9 +60,9 @@ pub(crate) mod water {
     pub mod wave;
 }
 
+pub use context::{CaseContext, Flow};
 pub use method::Method;
 pub use record::{Record, Trial};
-pub use stand::{Flow, Stand};
 
 use crate::{bench::Machine, print};
 use anyhow::Context;
@@ -103,10 +103,10 @@ pub struct Case {
     pub about: &'static str,
     /// Whether it only runs with `--full`.
     pub only_full: bool,
-    run: fn(&Stand) -> Outcome,
+    run: fn(&CaseContext) -> Outcome,
 }
 
-const fn short(name: &'static str, about: &'static str, run: fn(&Stand) -> Outcome) -> Case {
+const fn short(name: &'static str, about: &'static str, run: fn(&CaseContext) -> Outcome) -> Case {
     Case {
         name,
         about,
@@ -115,7 +115,7 @@ const fn short(name: &'static str, about: &'static str, run: fn(&Stand) -> Outco
     }
 }
 
-const fn long(name: &'static str, about: &'static str, run: fn(&Stand) -> Outcome) -> Case {
+const fn long(name: &'static str, about: &'static str, run: fn(&CaseContext) -> Outcome) -> Case {
     Case {
         name,
         about,
@@ -261,14 +261,14 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
         print::print(&list(&cases))?;
         return Ok(true);
     }
-    let mut stand = Stand::open(args.adapter.as_deref(), args.full)?;
+    let mut context = CaseContext::open(args.adapter.as_deref(), args.full)?;
     if let Some(folder) = &args.pictures {
         std::fs::create_dir_all(folder)
             .with_context(|| format!("cannot make {}", folder.display()))?;
     }
-    stand.pictures = args.pictures;
+    context.pictures = args.pictures;
     // Read before the run: cases may take hours, during which other commits are made.
-    let machine = Machine::of(&stand.device.adapter_info());
+    let machine = Machine::of(&context.device.adapter_info());
     let mut records = Vec::new();
     println!("{}", record::header());
     for case in cases {
@@ -276,7 +276,7 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
             println!("{}\n     left out, it runs with --full", case.name);
             continue;
         }
-        records.append(&mut found(&stand, &case));
+        records.append(&mut found(&context, &case));
     }
     if let Some(path) = &args.json {
         std::fs::write(path, machine.json(&records)?)
@@ -289,9 +289,9 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
 }
 
 /// Runs a case and prints its records. A case that breaks off has one record, which holds the error.
-pub(crate) fn found(stand: &Stand, case: &Case) -> Vec<Record> {
+pub(crate) fn found(context: &CaseContext, case: &Case) -> Vec<Record> {
     println!("{}", case.name);
-    let mut found = (case.run)(stand).unwrap_or_else(|error| vec![broken_off(&error)]);
+    let mut found = (case.run)(context).unwrap_or_else(|error| vec![broken_off(&error)]);
     for record in &mut found {
         record.case = case.name.into();
         println!("{}", record::row(record));

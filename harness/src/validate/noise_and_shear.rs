@@ -1,6 +1,6 @@
 //! A periodic box of noise and shear: comparison with float64, models that must agree, and conservation.
 
-use super::{Outcome, Record, Stand, Trial, fields::changed};
+use super::{CaseContext, Outcome, Record, Trial, fields::changed};
 use kit::twin::{
     golden::{FORCE, FORCED, PLAIN, PRODUCT, WALE},
     lattice::W,
@@ -65,7 +65,7 @@ fn suga(cells: [u32; 3]) -> Setup {
 }
 
 /// A periodic box of noise and shear after 50 steps, against float64.
-pub fn golden(stand: &Stand) -> Outcome {
+pub fn golden(context: &CaseContext) -> Outcome {
     let base = suga(GOLDEN_CELLS);
     let f16 = |lanes| changed(&base, |s| (s.storage, s.lanes) = (Storage::F16, lanes));
     let four = changed(&base, |s| s.lanes = 4);
@@ -84,7 +84,7 @@ pub fn golden(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (name, setup, exact, limit) in variants {
         let start = noise_and_shear(GOLDEN_CELLS);
-        let mut flow = stand.resumed(setup, &start)?;
+        let mut flow = context.resumed(setup, &start)?;
         flow.advance(STEPS)?;
         let end = flow.populations()?;
         let n = end.values.len() / 27;
@@ -108,7 +108,7 @@ const NULL_CELLS: [u32; 3] = [24, 10, 8];
 const NULL_LIMIT: f64 = 1e-6;
 
 /// A model with its constant at zero is the simpler model.
-pub fn null_models(stand: &Stand) -> Outcome {
+pub fn null_models(context: &CaseContext) -> Outcome {
     let base = Setup::periodic(NULL_CELLS, (1.0 / 1.9 - 0.5) / 3.0);
     let bgk = changed(&base, |s| s.collision = Collision::Bgk);
     let equal = |collision| {
@@ -136,33 +136,33 @@ pub fn null_models(stand: &Stand) -> Outcome {
     ];
     let mut records = Vec::new();
     for (name, setup, simpler) in pairs {
-        let (trial, a) = end(stand, setup, STEPS)?;
-        let (_, b) = end(stand, simpler, STEPS)?;
+        let (trial, a) = end(context, setup, STEPS)?;
+        let (_, b) = end(context, simpler, STEPS)?;
         let quantity = format!("{name}: largest Δf/w");
         records.push(trial.at_most(quantity, difference(&a, &b, |_| true), NULL_LIMIT));
     }
     for lanes in [1, 4] {
-        records.push(flagged(stand, &base, lanes)?);
+        records.push(flagged(context, &base, lanes)?);
     }
     Ok(records)
 }
 
-fn end(stand: &Stand, setup: Setup, steps: u64) -> anyhow::Result<(Trial, Populations)> {
-    let mut flow = stand.resumed(setup, &noise_and_shear(NULL_CELLS))?;
+fn end(context: &CaseContext, setup: Setup, steps: u64) -> anyhow::Result<(Trial, Populations)> {
+    let mut flow = context.resumed(setup, &noise_and_shear(NULL_CELLS))?;
     flow.advance(steps)?;
     Ok((flow.trial(), flow.populations()?))
 }
 
 /// One solid cell makes its bricks flagged ones. Its effect spreads by one cell per step; farther away the flagged kernel must
 /// agree with the plain one.
-fn flagged(stand: &Stand, base: &Setup, lanes: u32) -> anyhow::Result<Record> {
+fn flagged(context: &CaseContext, base: &Setup, lanes: u32) -> anyhow::Result<Record> {
     let steps = 3;
     let setup = changed(base, |s| s.lanes = lanes);
     let with_cell = changed(&setup, |s| {
         s.solid = (0..24 * 10 * 8).map(|n| n == 0).collect()
     });
-    let (trial, a) = end(stand, with_cell, steps)?;
-    let (_, b) = end(stand, setup, steps)?;
+    let (trial, a) = end(context, with_cell, steps)?;
+    let (_, b) = end(context, setup, steps)?;
     let reached = |x: usize| x.min(24 - x) as u64 <= steps + 1;
     let error = difference(&a, &b, |cell| !reached(cell % 24));
     Ok(trial.at_most(
@@ -188,8 +188,8 @@ const LONG_STEPS: u64 = 10_000;
 const DRIFT_LIMIT: f64 = 1e-6;
 
 /// Mass and momentum of a periodic box over 10⁴ steps.
-pub fn conservation(stand: &Stand) -> Outcome {
-    let hermite = stand.setup(BOX, 0.05 / 3.0);
+pub fn conservation(context: &CaseContext) -> Outcome {
+    let hermite = context.setup(BOX, 0.05 / 3.0);
     let setups = [
         hermite.clone(),
         changed(&suga(BOX), |s| s.lanes = hermite.lanes),
@@ -202,7 +202,7 @@ pub fn conservation(stand: &Stand) -> Outcome {
         let limit = (setup.storage == Storage::F32).then_some(DRIFT_LIMIT);
         let start = noise_and_shear(BOX);
         let before = Totals::of(&start);
-        let mut flow = stand.resumed(setup, &start)?;
+        let mut flow = context.resumed(setup, &start)?;
         flow.advance(LONG_STEPS)?;
         let after = Totals::of(&flow.populations()?);
         let mass = (after.mass - before.mass).abs() / before.mass;

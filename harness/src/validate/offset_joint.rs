@@ -1,6 +1,6 @@
 //! The stagnation point in an offset open joint (Gardner & Sitar 2018, section 6.2), on three grids.
 
-use super::{Outcome, Stand, Trial, record::describe, tank::Tank};
+use super::{CaseContext, Outcome, Trial, record::describe, tank::Tank};
 use anyhow::Context;
 use riprap::scene::{Field, ProbePlace, Scene};
 use std::path::Path;
@@ -33,15 +33,19 @@ struct Means {
 }
 
 /// Position of the stagnation point, on three successively finer grids.
-pub fn stagnation(stand: &Stand) -> Outcome {
+pub fn stagnation(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
-    let grids = if stand.software { COARSE_GRIDS } else { GRIDS };
+    let grids = if context.software {
+        COARSE_GRIDS
+    } else {
+        GRIDS
+    };
     let mut before: Option<[f64; 2]> = None;
     for ratio in grids {
         let mut scene = Scene::from_toml(SCENE, Path::new("."), "offset_joint.toml")?;
         scene.domain.cell *= ratio;
         let cell = scene.domain.cell;
-        let means = measure(stand, &scene)?;
+        let means = measure(context, &scene)?;
         let trial = &means.trial;
         let (height, pressure) = peak(&means.face);
         let name = |what: &str| format!("{what}, cell {:.3} mm", 1e3 * cell);
@@ -62,8 +66,8 @@ pub fn stagnation(stand: &Stand) -> Outcome {
 }
 
 /// Runs the scene; the means begin when the flow has developed.
-fn measure(stand: &Stand, scene: &Scene) -> anyhow::Result<Means> {
-    let mut tank = Tank::fill(stand, scene)?;
+fn measure(context: &CaseContext, scene: &Scene) -> anyhow::Result<Means> {
+    let mut tank = Tank::fill(context, scene)?;
     let end = scene.run.duration.context("the scene has a duration")?;
     let cell = scene.domain.cell;
     let [mut face, joint] = [region(scene, "downstream_face")?, region(scene, "joint")?];

@@ -1,6 +1,6 @@
 //! A plane channel between open faces: the pressure gradient inside.
 
-use super::{Outcome, Stand, fields};
+use super::{CaseContext, Outcome, fields};
 use riprap::lattice::{Face, Setup, State};
 
 const LENGTH: u32 = 48;
@@ -12,8 +12,8 @@ const LIMIT: f64 = 0.01;
 /// Twenty times H²/ν, and the time in which the mean pressure settles.
 const STEPS: u64 = 20_000;
 
-fn channel(stand: &Stand, faces: [Face; 2]) -> Setup {
-    let mut setup = stand.setup([LENGTH, HEIGHT, 4], (TAU - 0.5) / 3.0);
+fn channel(context: &CaseContext, faces: [Face; 2]) -> Setup {
+    let mut setup = context.setup([LENGTH, HEIGHT, 4], (TAU - 0.5) / 3.0);
     setup.lambda = Some(3.0 / 16.0);
     setup.faces[0] = faces;
     setup.faces[1] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
@@ -30,23 +30,23 @@ fn parabola() -> Face {
 }
 
 /// Parabolic inlet; the pressure is held at the outlet.
-pub fn velocity_pressure(stand: &Stand) -> Outcome {
+pub fn velocity_pressure(context: &CaseContext) -> Outcome {
     let outlet = Face::Pressure { density: 1.0 };
-    run(stand, channel(stand, [parabola(), outlet]), Some(SPEED))
+    run(context, channel(context, [parabola(), outlet]), Some(SPEED))
 }
 
 /// Parabolic inlet; sound and vortices may leave through the outlet.
-pub fn velocity_outflow(stand: &Stand) -> Outcome {
+pub fn velocity_outflow(context: &CaseContext) -> Outcome {
     let outlet = Face::Outflow { density: 1.0 };
-    run(stand, channel(stand, [parabola(), outlet]), Some(SPEED))
+    run(context, channel(context, [parabola(), outlet]), Some(SPEED))
 }
 
 /// Both pressures are held; the densities differ by 3 Δp.
-pub fn pressure_pressure(stand: &Stand) -> Outcome {
+pub fn pressure_pressure(context: &CaseContext) -> Outcome {
     let half = 1.5 * slope(SPEED) * f64::from(LENGTH);
     let face = |density| Face::Pressure { density };
-    let setup = channel(stand, [face(1.0 - half), face(1.0 + half)]);
-    run(stand, setup, None)
+    let setup = channel(context, [face(1.0 - half), face(1.0 + half)]);
+    run(context, setup, None)
 }
 
 /// dp/dx of plane Poiseuille flow, −8 ν U/H².
@@ -55,10 +55,10 @@ fn slope(speed: f64) -> f64 {
 }
 
 /// `inlet` is the speed in the middle if it is prescribed; otherwise the pressure gradient is prescribed.
-fn run(stand: &Stand, setup: Setup, inlet: Option<f64>) -> Outcome {
+fn run(context: &CaseContext, setup: Setup, inlet: Option<f64>) -> Outcome {
     let cells = setup.cells;
     let rest = State::rest((LENGTH * HEIGHT * 4) as usize);
-    let mut flow = stand.flow(setup, &rest, false)?;
+    let mut flow = context.flow(setup, &rest, false)?;
     flow.advance(STEPS - 1000)?;
     let before = flow.state()?;
     flow.advance(1000)?;

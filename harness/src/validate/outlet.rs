@@ -1,6 +1,6 @@
 //! Outlets: reflection of a pulse of sound, and vortices behind a square cylinder that cross them.
 
-use super::{Outcome, Stand, Trial, fields};
+use super::{CaseContext, Outcome, Trial, fields};
 use riprap::lattice::Face;
 
 /// Length of the channel of the pulse, cells.
@@ -15,23 +15,23 @@ const PULSE_STEPS: u64 = 300;
 const RETURNED: f64 = 0.02;
 
 /// Reflection of sound by an outlet: a pulse of density 1e-3 runs into the outlet, in fluid at rest and in a stream.
-pub fn pulse(stand: &Stand) -> Outcome {
+pub fn pulse(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for speed in [0.0, 0.05, 0.1] {
         let outlet = Face::Outflow { density: 1.0 };
-        let (trial, returned) = send(stand, speed, outlet)?;
+        let (trial, returned) = send(context, speed, outlet)?;
         let quantity = format!("outflow: returned amplitude, U = {speed}");
         records.push(trial.at_most(quantity, returned, RETURNED));
     }
-    let (trial, returned) = send(stand, 0.0, Face::Pressure { density: 1.0 })?;
+    let (trial, returned) = send(context, 0.0, Face::Pressure { density: 1.0 })?;
     let quantity = "pressure: returned amplitude, U = 0";
     records.push(trial.report(quantity, returned));
     Ok(records)
 }
 
-fn send(stand: &Stand, speed: f64, outlet: Face) -> anyhow::Result<(Trial, f64)> {
+fn send(context: &CaseContext, speed: f64, outlet: Face) -> anyhow::Result<(Trial, f64)> {
     let cells = [LENGTH, 4, 4];
-    let mut setup = stand.setup(cells, 1e-3);
+    let mut setup = context.setup(cells, 1e-3);
     setup.faces[0] = [Face::Velocity(vec![[speed as f32, 0.0, 0.0]; 16]), outlet];
     let start = fields::state(cells, |[x, _, _]| {
         let distance = (x - 0.5 * f64::from(LENGTH)) / WIDTH;
@@ -40,7 +40,7 @@ fn send(stand: &Stand, speed: f64, outlet: Face) -> anyhow::Result<(Trial, f64)>
         let sound = excess / (3f64.sqrt() * (1.0 + excess));
         (excess, [speed + sound, 0.0, 0.0])
     });
-    let mut flow = stand.flow(setup, &start, true)?;
+    let mut flow = context.flow(setup, &start, true)?;
     flow.advance(PULSE_STEPS)?;
     let largest = flow
         .state()?
@@ -61,19 +61,19 @@ const FULL_STEPS: u64 = 12_800;
 const SAMPLE: u64 = 50;
 
 /// Vortices behind a square cylinder leave through a face of held pressure.
-pub fn wake_pressure(stand: &Stand) -> Outcome {
-    run(stand, Face::Pressure { density: 1.0 })
+pub fn wake_pressure(context: &CaseContext) -> Outcome {
+    run(context, Face::Pressure { density: 1.0 })
 }
 
 /// Vortices behind a square cylinder leave through an outlet that lets sound and vortices leave.
-pub fn wake_outflow(stand: &Stand) -> Outcome {
-    run(stand, Face::Outflow { density: 1.0 })
+pub fn wake_outflow(context: &CaseContext) -> Outcome {
+    run(context, Face::Outflow { density: 1.0 })
 }
 
-fn run(stand: &Stand, outlet: Face) -> Outcome {
+fn run(context: &CaseContext, outlet: Face) -> Outcome {
     let [nx, ny, nz] = CELLS;
-    let steps = if stand.full { FULL_STEPS } else { STEPS };
-    let mut setup = stand.setup(CELLS, SPEED * f64::from(D) / REYNOLDS);
+    let steps = if context.full { FULL_STEPS } else { STEPS };
+    let mut setup = context.setup(CELLS, SPEED * f64::from(D) / REYNOLDS);
     let inlet = vec![[SPEED as f32, 0.0, 0.0]; (ny * nz) as usize];
     setup.faces[0] = [Face::Velocity(inlet), outlet];
     setup.faces[1] = [Face::FreeSlip, Face::FreeSlip];
@@ -92,7 +92,7 @@ fn run(stand: &Stand, outlet: Face) -> Outcome {
         let moves = f64::from(u8::from(!in_cylinder(at)));
         (0.0, [moves * SPEED, moves * crosswind, 0.0])
     });
-    let mut flow = stand.flow(setup, &start, false)?;
+    let mut flow = context.flow(setup, &start, false)?;
 
     // Two edge lengths behind the cylinder, on the centre line, and at the outlet.
     let at = |x: u32| (x + nx * (ny / 2)) as usize;

@@ -1,6 +1,6 @@
 //! Flows between plane walls: with Λ = 3/16 half-way bounce-back is exact at every τ.
 
-use super::{Method, Outcome, Stand, Trial, fields};
+use super::{CaseContext, Method, Outcome, Trial, fields};
 use riprap::lattice::{Face, Force, Setup, State};
 
 /// Ginzburg & d'Humières 2003: the parabola is exact, and the straight line at any Λ.
@@ -17,28 +17,28 @@ const BETWEEN_WALLS: f64 = 2.0;
 const BELOW_A_SLIP_TOP: f64 = 7.5;
 
 /// Couette flow: straight, u = U y/H.
-pub fn couette(stand: &Stand) -> Outcome {
-    each_tau(stand, 9, BETWEEN_WALLS, |setup| {
+pub fn couette(context: &CaseContext) -> Outcome {
+    each_tau(context, 9, BETWEEN_WALLS, |setup| {
         setup.faces[1] = [Face::Wall(REST), Face::Wall([SPEED, 0.0, 0.0])];
         |y, h| SPEED * y / h
     })
 }
 
 /// Poiseuille flow driven by a force: u = F y (H − y)/(2ν).
-pub fn poiseuille(stand: &Stand) -> Outcome {
-    each_tau(stand, 9, BETWEEN_WALLS, between_walls)
+pub fn poiseuille(context: &CaseContext) -> Outcome {
+    each_tau(context, 9, BETWEEN_WALLS, between_walls)
 }
 
 /// Poiseuille flow on `height` cells at one τ: the trial, and the L2 error of the velocity.
 pub fn poiseuille_on(
-    stand: &Stand,
+    context: &CaseContext,
     height: u32,
     tau: f64,
     method: Method,
 ) -> anyhow::Result<(Trial, f64)> {
-    let mut setup = stand.setup([4, height, 4], (tau - 0.5) / 3.0);
+    let mut setup = context.setup([4, height, 4], (tau - 0.5) / 3.0);
     method.arrange(&mut setup);
-    let Steady { trial, error, .. } = steady(stand, setup, BETWEEN_WALLS, &between_walls)?;
+    let Steady { trial, error, .. } = steady(context, setup, BETWEEN_WALLS, &between_walls)?;
     Ok((trial, error))
 }
 
@@ -50,8 +50,8 @@ fn between_walls(setup: &mut Setup) -> impl Fn(f64, f64) -> f64 + use<> {
 }
 
 /// A film with a slip top: u = F (H y − y²/2)/ν.
-pub fn film(stand: &Stand) -> Outcome {
-    each_tau(stand, 8, BELOW_A_SLIP_TOP, |setup| {
+pub fn film(context: &CaseContext) -> Outcome {
+    each_tau(context, 8, BELOW_A_SLIP_TOP, |setup| {
         setup.faces[1] = [Face::Wall(REST), Face::FreeSlip];
         setup.force = Force::Constant([2.0 * setup.nu * SPEED / 64.0, 0.0, 0.0]);
         |y, h| SPEED * (2.0 * h * y - y * y) / (h * h)
@@ -60,16 +60,16 @@ pub fn film(stand: &Stand) -> Outcome {
 
 /// Runs the flow that `arrange` sets up at each τ to its steady state.
 fn each_tau<Exact: Fn(f64, f64) -> f64>(
-    stand: &Stand,
+    context: &CaseContext,
     height: u32,
     settle: f64,
     arrange: impl Fn(&mut Setup) -> Exact,
 ) -> Outcome {
     let mut records = Vec::new();
     for tau in TAUS {
-        let mut setup = stand.setup([4, height, 4], (tau - 0.5) / 3.0);
+        let mut setup = context.setup([4, height, 4], (tau - 0.5) / 3.0);
         setup.lambda = Some(LAMBDA);
-        let Steady { trial, error, end } = steady(stand, setup, settle, &arrange)?;
+        let Steady { trial, error, end } = steady(context, setup, settle, &arrange)?;
         records.push(trial.at_most(format!("L2 error of u, τ = {tau}"), error, LIMIT));
         let profile: Vec<_> = (0..3).map(|y| f64::from(end.velocity[0][4 * y])).collect();
         let quantity = format!("wall at y, cells, τ = {tau}");
@@ -88,7 +88,7 @@ struct Steady {
 
 /// Runs the flow that `arrange` sets up to its steady state.
 fn steady<Exact: Fn(f64, f64) -> f64>(
-    stand: &Stand,
+    context: &CaseContext,
     mut setup: Setup,
     settle: f64,
     arrange: &impl Fn(&mut Setup) -> Exact,
@@ -98,7 +98,7 @@ fn steady<Exact: Fn(f64, f64) -> f64>(
     let h = f64::from(cells[1]);
     // At high viscosity sound takes longer than diffusion to calm down.
     let steps = (settle * h * h / setup.nu).ceil().max(1000.0);
-    let mut flow = stand.flow(setup, &State::rest(16 * cells[1] as usize), false)?;
+    let mut flow = context.flow(setup, &State::rest(16 * cells[1] as usize), false)?;
     flow.advance(steps as u64)?;
     let end = flow.state()?;
     Ok(Steady {

@@ -1,7 +1,7 @@
 //! The velocity at which the block of the scene `plucking` begins to move, compared with that of limit equilibrium under the mean
 //! pressures on its faces.
 
-use super::{Outcome, Stand, Trial};
+use super::{CaseContext, Outcome, Trial};
 use crate::threshold::{self, Args, mean_and_error};
 use anyhow::Context;
 use std::{fs, sync::atomic::AtomicBool, time::Instant};
@@ -19,7 +19,7 @@ const ENDS: [f64; 2] = [0.3, 0.5];
 const TOLERANCE: f64 = 0.015;
 
 /// Runs the case.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let folder = std::env::temp_dir().join(format!("riprap_plucking_{}", std::process::id()));
     fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
     let mut records = Vec::new();
@@ -41,7 +41,7 @@ pub fn run(stand: &Stand) -> Outcome {
             to: ENDS[1],
             tolerance: TOLERANCE,
             equilibrium: true,
-            adapter: Some(stand.device.adapter_info().name),
+            adapter: Some(context.device.adapter_info().name),
             out: Some(folder.clone()),
             ..Args::default()
         };

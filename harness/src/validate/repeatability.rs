@@ -1,6 +1,6 @@
 //! The same run gives the same bits: twice, after a restart, and with other workgroup shapes.
 
-use super::{Outcome, Stand, fields};
+use super::{CaseContext, Outcome, fields};
 use riprap::lattice::{Face, Force, Populations, Setup};
 
 const CELLS: [u32; 3] = [24, 12, 8];
@@ -23,13 +23,13 @@ fn everything() -> Setup {
 }
 
 /// Runs the case.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let start = fields::state(CELLS, |[x, y, z]| {
         let wave = |s: f64| 0.02 * (0.7 * s).sin();
         (1e-3 * wave(x + y), [0.04 + wave(y), wave(z), wave(x)])
     });
     let whole = |setup: Setup| -> anyhow::Result<_> {
-        let mut flow = stand.flow(setup, &start, true)?;
+        let mut flow = context.flow(setup, &start, true)?;
         flow.advance(STEPS)?;
         Ok((flow.trial(), flow.populations()?))
     };
@@ -47,10 +47,10 @@ pub fn run(stand: &Stand) -> Outcome {
     let (_, second) = whole(everything())?;
     same("second run: bits that differ", &trial, &second);
 
-    let mut flow = stand.flow(everything(), &start, true)?;
+    let mut flow = context.flow(everything(), &start, true)?;
     flow.advance(BREAK)?;
     let saved = flow.populations()?;
-    let mut flow = stand.resumed(everything(), &saved)?;
+    let mut flow = context.resumed(everything(), &saved)?;
     flow.advance(STEPS - BREAK)?;
     let end = flow.populations()?;
     same("restart: bits that differ", &flow.trial(), &end);

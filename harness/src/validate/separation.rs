@@ -3,7 +3,7 @@
 //! The stream is along x and the floor normal to y; h is the height of the step or the cube. A periodic channel that runs
 //! alongside supplies the turbulent inflow.
 
-use super::{Flow, Outcome, Record, Stand, fields};
+use super::{CaseContext, Flow, Outcome, Record, fields};
 use anyhow::Context;
 use riprap::lattice::{Face, Force, WallModel};
 use std::ops::Range;
@@ -70,13 +70,13 @@ struct Upstream<'a> {
 }
 
 /// Laminar, plane flow behind a step. The edge makes the error first-order: the coarse grid shows it.
-pub fn laminar_step(stand: &Stand) -> Outcome {
+pub fn laminar_step(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for h in [8, 16] {
         for (reynolds, expected) in LAMINAR_STEP {
             let channel = Channel::step(h, 16, 4, Regime::Laminar);
             let time = f64::from(h) / BULK;
-            let mut stream = channel.stream(stand, 2.0 * f64::from(h) * BULK / reynolds)?;
+            let mut stream = channel.stream(context, 2.0 * f64::from(h) * BULK / reynolds)?;
             stream.advance((80.0 * time) as u64)?;
             let before = channel.reattachment(&channel.on_floor(&mut stream, 1, 1)?)?;
             stream.advance((10.0 * time) as u64)?;
@@ -93,18 +93,18 @@ pub fn laminar_step(stand: &Stand) -> Outcome {
 }
 
 /// Cells across h in turbulent flows: for a CPU of two cores within minutes, and for a GPU.
-fn fineness(stand: &Stand) -> u32 {
-    if stand.software { 12 } else { 24 }
+fn fineness(context: &CaseContext) -> u32 {
+    if context.software { 12 } else { 24 }
 }
 
 /// Turbulent flow behind a step.
-pub fn step(stand: &Stand) -> Outcome {
+pub fn step(context: &CaseContext) -> Outcome {
     let (reynolds, expected) = STEP;
     let mut records = Vec::new();
     for (regime, name) in TURBULENT {
-        let h = fineness(stand);
+        let h = fineness(context);
         let channel = Channel::step(h, 20, 4 * h, regime);
-        let (stream, batches) = channel.batches(stand, reynolds)?;
+        let (stream, batches) = channel.batches(context, reynolds)?;
         let length = format!("step{name}: reattachment / h");
         let found = place(&batches, |u| channel.reattachment(u))?;
         let limit = channel.limit(STEP_LIMIT);
@@ -114,18 +114,18 @@ pub fn step(stand: &Stand) -> Outcome {
 }
 
 /// Turbulent flow around a cube.
-pub fn cube(stand: &Stand) -> Outcome {
+pub fn cube(context: &CaseContext) -> Outcome {
     let (reynolds, before, behind) = CUBE;
     let mut records = Vec::new();
     for (regime, name) in TURBULENT {
-        let h = fineness(stand);
+        let h = fineness(context);
         let channel = Channel {
             h,
             cells: [10 * h, 2 * h, 7 * h],
             body: [3 * h..4 * h, 3 * h..4 * h],
             regime,
         };
-        let (stream, batches) = channel.batches(stand, reynolds)?;
+        let (stream, batches) = channel.batches(context, reynolds)?;
         let length = format!("cube{name}: reattachment / h");
         let found = place(&batches, |u| channel.reattachment(u))?;
         let limit = channel.limit(CUBE_LIMIT);
@@ -224,9 +224,9 @@ impl Channel {
     }
 
     /// The flow at its start, with the inlet profile everywhere above the floor.
-    fn stream<'a>(&self, stand: &'a Stand, nu: f64) -> anyhow::Result<Stream<'a>> {
+    fn stream<'a>(&self, context: &'a CaseContext, nu: f64) -> anyhow::Result<Stream<'a>> {
         let [_, ny, nz] = self.cells;
-        let mut setup = stand.setup(self.cells, nu);
+        let mut setup = context.setup(self.cells, nu);
         let centres = || fields::centres(self.cells);
         setup.solid = centres().map(|at| self.is_solid(at)).collect();
         let inlet = (0..ny * nz).map(|n| [self.profile(f64::from(n % ny) + 0.5) as f32, 0.0, 0.0]);
@@ -242,7 +242,7 @@ impl Channel {
             setup.wall_model = model;
             let [floor, height] = self.inlet().map(|cells| cells as u32);
             let cells = [(2 * height).next_multiple_of(16), height, nz];
-            upstream = Some(Upstream::develop(stand, cells, floor, nu)?);
+            upstream = Some(Upstream::develop(context, cells, floor, nu)?);
         }
         let start = fields::state(self.cells, |at| {
             let u = if self.is_solid(at) {
@@ -252,18 +252,18 @@ impl Channel {
             };
             (0.0, [u, 0.0, 0.0])
         });
-        let flow = stand.flow(setup, &start, true)?;
+        let flow = context.flow(setup, &start, true)?;
         Ok(Stream { flow, upstream })
     }
 
     /// A developed turbulent flow, and the result of [`Self::on_floor`] for each batch.
     fn batches<'a>(
         &self,
-        stand: &'a Stand,
+        context: &'a CaseContext,
         reynolds: f64,
     ) -> anyhow::Result<(Stream<'a>, Vec<Vec<f64>>)> {
         let h = f64::from(self.h);
-        let mut stream = self.stream(stand, h * BULK / reynolds)?;
+        let mut stream = self.stream(context, h * BULK / reynolds)?;
         stream.advance((SETTLE * h / BULK) as u64)?;
         // Odd, so that populations that alternate at walls contribute both of their states.
         let each = (AVERAGE * h / BULK / (BATCHES as f64 * SAMPLES as f64)) as u64 | 1;
@@ -347,18 +347,23 @@ impl Stream<'_> {
 
 impl<'a> Upstream<'a> {
     /// A developed channel, always with a wall model.
-    fn develop(stand: &'a Stand, cells: [u32; 3], below: u32, nu: f64) -> anyhow::Result<Self> {
+    fn develop(
+        context: &'a CaseContext,
+        cells: [u32; 3],
+        below: u32,
+        nu: f64,
+    ) -> anyhow::Result<Self> {
         let h = 0.5 * f64::from(cells[1]);
         // Re_τ of a channel (Pope 2000, eq. 7.9 and 7.10).
         let reynolds = 0.09 * (2.0 * h * BULK / nu).powf(0.88);
         let friction = reynolds * nu / h;
-        let mut setup = stand.setup(cells, nu);
+        let mut setup = context.setup(cells, nu);
         setup.faces[1] = [WALL, WALL];
         setup.force = Force::Constant([friction * friction / h, 0.0, 0.0]);
         setup.wale = Some(0.5);
         setup.wall_model = Some(WallModel::WernerWengle);
         let start = fields::turbulent_channel(cells, h, friction, reynolds);
-        let mut flow = stand.flow(setup, &start, true)?;
+        let mut flow = context.flow(setup, &start, true)?;
         flow.advance((DEVELOP * h / friction) as u64)?;
         Ok(Self { flow, cells, below })
     }

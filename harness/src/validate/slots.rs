@@ -1,6 +1,6 @@
 //! Every combination of slots is valid WGSL, and a setup binds only what it uses.
 
-use super::{Outcome, Stand, Trial, fields::changed, record::describe};
+use super::{CaseContext, Outcome, Trial, fields::changed, record::describe};
 use anyhow::Context;
 use riprap::{
     gpu::kernel,
@@ -12,7 +12,7 @@ use riprap::{
 use std::time::Instant;
 
 /// Runs the case.
-pub fn run(_: &Stand) -> Outcome {
+pub fn run(_: &CaseContext) -> Outcome {
     let begin = Instant::now();
     let mut linked = 0;
     let mut wrong: Vec<String> = Vec::new();

@@ -1,12 +1,12 @@
 //! Runs that must stay stable: noise in fluid at rest, and vortices at the lowest viscosity.
 
-use super::{Outcome, Stand, fields};
+use super::{CaseContext, Outcome, fields};
 use kit::twin::lattice::W;
 use riprap::lattice::{C, Collision, Equilibrium, Populations, Setup};
 use std::f64::consts::TAU;
 
 /// Noise of 1e-6 in a quiescent box decays at every relaxation time that a method allows.
-pub fn quiescent(stand: &Stand) -> Outcome {
+pub fn quiescent(context: &CaseContext) -> Outcome {
     let cells = [16; 3];
     let taus: &[f64] = &[0.51, 0.6, 0.8, 1.0, 2.0];
     // Suga's operator is unstable at rest above τ = 0.559 and refused there.
@@ -22,10 +22,10 @@ pub fn quiescent(stand: &Stand) -> Outcome {
     let mut records = Vec::new();
     for (collision, equilibrium, taus) in methods {
         for &tau in taus {
-            let mut setup = stand.setup(cells, (tau - 0.5) / 3.0);
+            let mut setup = context.setup(cells, (tau - 0.5) / 3.0);
             (setup.collision, setup.equilibrium) = (collision, equilibrium);
             let start = noise(cells);
-            let mut flow = stand.resumed(setup, &start)?;
+            let mut flow = context.resumed(setup, &start)?;
             let fault = flow.try_advance(2000)?;
             let end = flow.populations()?;
             let ratio = match fault {
@@ -76,7 +76,7 @@ fn rms(populations: &Populations) -> f64 {
 }
 
 /// Taylor–Green vortices on 32³ cells at Mach 0.3 and ν = 1e-6 for 10⁴ steps.
-pub fn taylor_green(stand: &Stand) -> Outcome {
+pub fn taylor_green(context: &CaseContext) -> Outcome {
     let n = 32;
     let cells = [n; 3];
     let speed = 0.3 / 3f64.sqrt();
@@ -93,16 +93,16 @@ pub fn taylor_green(stand: &Stand) -> Outcome {
         (3.0 * p, u)
     });
     let mut setups = vec![method(
-        stand,
+        context,
         Collision::Hermite,
         Equilibrium::Product,
         Some(0.5),
     )];
-    if stand.full {
+    if context.full {
         for collision in [Collision::Hermite, Collision::Suga] {
             for equilibrium in [Equilibrium::Product, Equilibrium::SecondOrder] {
                 for wale in [None, Some(0.5)] {
-                    setups.push(method(stand, collision, equilibrium, wale));
+                    setups.push(method(context, collision, equilibrium, wale));
                 }
             }
         }
@@ -110,7 +110,7 @@ pub fn taylor_green(stand: &Stand) -> Outcome {
     }
     let mut records = Vec::new();
     for setup in setups {
-        let mut flow = stand.flow(setup, &start, true)?;
+        let mut flow = context.flow(setup, &start, true)?;
         let begin = flow.sums()?;
         let steps = 10_000;
         let fault = flow.try_advance(steps)?;
@@ -127,12 +127,12 @@ pub fn taylor_green(stand: &Stand) -> Outcome {
 }
 
 fn method(
-    stand: &Stand,
+    context: &CaseContext,
     collision: Collision,
     equilibrium: Equilibrium,
     wale: Option<f64>,
 ) -> Setup {
-    let mut setup = stand.setup([32; 3], 1e-6);
+    let mut setup = context.setup([32; 3], 1e-6);
     (setup.collision, setup.equilibrium, setup.wale) = (collision, equilibrium, wale);
     // The vortices exceed Mach 0.5, the default limit of the guard, before they break up; at the speed of sound the flow has left
     // the range of the method.

@@ -1,6 +1,6 @@
 //! Statistics over time on the device, for a signal with known statistics.
 
-use super::{Outcome, Stand, record::Trial};
+use super::{CaseContext, Outcome, record::Trial};
 use kit::Random;
 use riprap::{
     lattice::{Lattice, Observer, Setup, State, Statistic, Statistics},
@@ -23,9 +23,9 @@ const SIGNAL: [(f64, f64); 4] = [(2e-3, 4e-4), (0.05, 5e-3), (0.01, 3e-3), (-0.0
 const MEMORY: f64 = 0.95;
 
 /// Statistics of 3·10⁵ correlated samples in f32 on the device, against sums in f64.
-pub fn known_signal(stand: &Stand) -> Outcome {
+pub fn known_signal(context: &CaseContext) -> Outcome {
     let begin = Instant::now();
-    let (device, queue) = (&stand.device, &stand.queue);
+    let (device, queue) = (&context.device, &context.queue);
     let mut lattice = Lattice::new(device, Setup::periodic([4, 4, 4], 0.02))?;
     lattice.start(device, queue, &State::rest(CELLS), true)?;
     let observer = Observer::new(device, &lattice)?;
@@ -73,11 +73,11 @@ pub fn known_signal(stand: &Stand) -> Outcome {
         queue.submit([encoder.finish()]);
         // A read per batch keeps submissions from piling up.
         let read = statistics.read(device, queue, &lattice, Statistic::Excess, Some(&[0]));
-        stand.drive("statistics", read)??;
+        context.drive("statistics", read)??;
     }
     let mut read = |statistic| -> anyhow::Result<Vec<f32>> {
         let read = statistics.read(device, queue, &lattice, statistic, None);
-        Ok(stand.drive("statistics", read)??)
+        Ok(context.drive("statistics", read)??)
     };
     let of_velocity = [
         (Statistic::Velocity(0), Statistic::ReynoldsStress(0)),

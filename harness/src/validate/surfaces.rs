@@ -1,6 +1,6 @@
 //! Flow between planes that are static solids: positions of their surfaces, as partially saturated cells and as staircases.
 
-use super::{Outcome, Record, Stand, fields};
+use super::{CaseContext, Outcome, Record, fields};
 use riprap::lattice::{Force, Setup, SurfaceCell};
 
 /// Edge along x and y of the periodic box, cells.
@@ -15,9 +15,9 @@ const NORMALS: [([u32; 2], f64); 3] = [([1, 0], 0.03), ([2, 1], 0.03), ([1, 1], 
 const THICK: f64 = 6.7;
 
 /// Offset of the surfaces, by the flux between them.
-pub fn planes(stand: &Stand) -> Outcome {
+pub fn planes(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
-    let taus: &[f64] = match stand.full {
+    let taus: &[f64] = match context.full {
         true => &[0.52, 0.6, 1.0, 1.5],
         false => &[0.6, 1.0],
     };
@@ -31,7 +31,7 @@ pub fn planes(stand: &Stand) -> Outcome {
                         along_z,
                         exact,
                     };
-                    records.push(planes.measure(stand, limit)?);
+                    records.push(planes.measure(context, limit)?);
                 }
             }
         }
@@ -73,8 +73,8 @@ impl Planes {
             .collect()
     }
 
-    fn setup(&self, stand: &Stand, push: [f64; 3]) -> Setup {
-        let mut setup = stand.setup([PERIOD, PERIOD, WIDE], (self.tau - 0.5) / 3.0);
+    fn setup(&self, context: &CaseContext, push: [f64; 3]) -> Setup {
+        let mut setup = context.setup([PERIOD, PERIOD, WIDE], (self.tau - 0.5) / 3.0);
         setup.force = Force::Constant(push);
         let layer = self.fractions();
         let all = (0..WIDE).flat_map(|_| layer.iter().copied());
@@ -91,7 +91,7 @@ impl Planes {
         setup
     }
 
-    fn measure(&self, stand: &Stand, limit: f64) -> anyhow::Result<Record> {
+    fn measure(&self, context: &CaseContext, limit: f64) -> anyhow::Result<Record> {
         let nu = (self.tau - 0.5) / 3.0;
         let [a, b] = self.normal.map(f64::from);
         let length = a.hypot(b);
@@ -102,10 +102,10 @@ impl Planes {
             false => [-b / length, a / length, 0.0],
         };
         let push = 8.0 * nu * SPEED / (gap * gap);
-        let setup = self.setup(stand, direction.map(|d| push * d));
+        let setup = self.setup(context, direction.map(|d| push * d));
         let fluid = setup.solid.iter().filter(|solid| !**solid).count() as f64;
         let rest = fields::state(setup.cells, |_| (0.0, [0.0; 3]));
-        let mut flow = stand.flow(setup, &rest, true)?;
+        let mut flow = context.flow(setup, &rest, true)?;
         flow.advance((10.0 * gap * gap / (nu * 9.87)).max(1000.0) as u64)?;
         let mut momentum = 0.0;
         for _ in 0..4 {

@@ -1,6 +1,6 @@
 //! Synthetic turbulence of a velocity face: its intensity on the face and in the fluid.
 
-use super::{Outcome, Stand, fields};
+use super::{CaseContext, Outcome, fields};
 use riprap::lattice::{Face, SyntheticTurbulence};
 
 const CELLS: [u32; 3] = [32, 20, 20];
@@ -20,16 +20,16 @@ const LIMIT: f64 = 0.03;
 const PLANES: [u32; 3] = [0, 1, 4];
 
 /// Root mean square of each component about the mean flow, on the face and behind it.
-pub fn inlet(stand: &Stand) -> Outcome {
+pub fn inlet(context: &CaseContext) -> Outcome {
     let [nx, ny, nz] = CELLS;
     let mean = [SPEED, 0.0, 0.0];
-    let mut setup = stand.setup(CELLS, 1e-5);
+    let mut setup = context.setup(CELLS, 1e-5);
     setup.wale = Some(0.5);
     let faces = vec![mean.map(|u| u as f32); (ny * nz) as usize];
     setup.faces[0] = [Face::Velocity(faces), Face::Outflow { density: 1.0 }];
     setup.turbulence[0][0] = Some(TURBULENCE);
     let start = fields::state(CELLS, |_| (0.0, mean));
-    let mut flow = stand.flow(setup, &start, true)?;
+    let mut flow = context.flow(setup, &start, true)?;
     flow.advance(SETTLE)?;
     let mut on_face = [0.0; 3];
     let mut behind = [[0.0; 3]; PLANES.len()];

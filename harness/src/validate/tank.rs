@@ -4,9 +4,9 @@
 //! free water are plane.
 
 use super::{
-    Stand, Trial,
+    CaseContext, Trial,
+    context::{SUBMISSION, WARM_UP},
     record::describe,
-    stand::{SUBMISSION, WARM_UP},
 };
 use kit::clock::{Spent, Stopwatch};
 use riprap::{
@@ -152,7 +152,7 @@ pub fn choose(scene: &mut Scene, scheme: Scheme) {
 /// the method.
 #[derive(Debug)]
 pub struct Tank<'a> {
-    stand: &'a Stand,
+    context: &'a CaseContext,
     /// The simulation.
     pub simulation: Simulation,
     seconds: f64,
@@ -164,12 +164,12 @@ impl<'a> Tank<'a> {
     ///
     /// # Errors
     /// If the scene is invalid, or the device cannot run it.
-    pub fn fill(stand: &'a Stand, scene: &Scene) -> anyhow::Result<Self> {
+    pub fn fill(context: &'a CaseContext, scene: &Scene) -> anyhow::Result<Self> {
         scene.check()?;
-        let made = Simulation::new(&stand.device, &stand.queue, scene);
+        let made = Simulation::new(&context.device, &context.queue, scene);
         Ok(Self {
-            stand,
-            simulation: stand.drive("the kernels", made)??,
+            context,
+            simulation: context.drive("the kernels", made)??,
             seconds: 0.0,
             stepping: Spent::default(),
         })
@@ -225,7 +225,7 @@ impl<'a> Tank<'a> {
     fn submit(&mut self, steps: u64, warm: bool) -> anyhow::Result<()> {
         let watch = Stopwatch::start();
         let done = self.simulation.advance(steps);
-        self.stand.drive("a validation case", done)??;
+        self.context.drive("a validation case", done)??;
         if warm {
             self.stepping += watch.spent();
         }
@@ -250,14 +250,16 @@ impl<'a> Tank<'a> {
     /// Largest y⁺ half a cell from a block.
     pub fn y_plus(&mut self) -> anyhow::Result<Option<f64>> {
         let looked = self.simulation.wall_units();
-        let found = self.stand.drive("reading cells beside blocks", looked)??;
+        let found = self
+            .context
+            .drive("reading cells beside blocks", looked)??;
         Ok(found.blocks.map(|cell| cell.y_plus))
     }
 
     /// Sums over the fluid, including the fluid inside blocks.
     pub fn totals(&mut self) -> anyhow::Result<Totals> {
         let totals = self.simulation.totals();
-        Ok(self.stand.drive("reading sums", totals)??)
+        Ok(self.context.drive("reading sums", totals)??)
     }
 
     /// Fields in single cells, given by their indices in an array over the domain with x fastest.
@@ -266,13 +268,13 @@ impl<'a> Tank<'a> {
     /// If a cell is outside, or the device is lost or silent.
     pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> anyhow::Result<Vec<Array>> {
         let read = self.simulation.read(fields, cells);
-        Ok(self.stand.drive("reading cells", read)??)
+        Ok(self.context.drive("reading cells", read)??)
     }
 
     /// Current state of the free water.
     pub fn water(&mut self) -> anyhow::Result<Water> {
         let water = self.simulation.water();
-        Ok(self.stand.drive("reading particles", water)??)
+        Ok(self.context.drive("reading particles", water)??)
     }
 
     /// Setup and cost of the run so far; `what` describes the content of the tank.

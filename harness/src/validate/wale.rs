@@ -1,6 +1,6 @@
 //! Eddy viscosity of WALE (Nicoud & Ducros 1999) on velocity fields with a known answer, and in a turbulent channel.
 
-use super::{Flow, Outcome, Stand, cavity, fields};
+use super::{CaseContext, Flow, Outcome, cavity, fields};
 use riprap::lattice::{Derived, Face, Force, State};
 use std::f64::consts::TAU;
 
@@ -8,27 +8,27 @@ const CONSTANT: f64 = 0.5;
 const WALLS: [Face; 2] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
 
 fn prescribed<'a>(
-    stand: &'a Stand,
+    context: &'a CaseContext,
     cells: [u32; 3],
     walls: [bool; 3],
     state: &State,
 ) -> anyhow::Result<(Flow<'a>, Vec<f64>)> {
-    let mut setup = stand.setup(cells, 0.01);
+    let mut setup = context.setup(cells, 0.01);
     setup.wale = Some(CONSTANT);
     for axis in (0..3).filter(|&axis| walls[axis]) {
         setup.faces[axis] = WALLS;
     }
-    let mut flow = stand.flow(setup, state, false)?;
+    let mut flow = context.flow(setup, state, false)?;
     let nu_t = flow.derived(Derived::EddyViscosity)?;
     Ok((flow, nu_t.into_iter().map(f64::from).collect()))
 }
 
 /// u = γy has no eddy viscosity.
-pub fn pure_shear(stand: &Stand) -> Outcome {
+pub fn pure_shear(context: &CaseContext) -> Outcome {
     let cells = [8, 32, 8];
     let gamma = 2e-3;
     let state = fields::state(cells, |[_, y, _]| (0.0, [gamma * y, 0.0, 0.0]));
-    let (flow, nu_t) = prescribed(stand, cells, [false, true, false], &state)?;
+    let (flow, nu_t) = prescribed(context, cells, [false, true, false], &state)?;
     let largest = nu_t.iter().fold(0.0, |a: f64, b| a.max(*b));
     // The gradient's round-off δ ~ 1e-8 enters as (δ/γ)³: far below f32's resolution of a sum.
     Ok(vec![flow.trial().at_most(
@@ -39,7 +39,7 @@ pub fn pure_shear(stand: &Stand) -> Outcome {
 }
 
 /// u = γy (1 + α sin kz), w = βγy sin kx meets a wall without slip: ν_t grows as y³ there.
-pub fn near_wall(stand: &Stand) -> Outcome {
+pub fn near_wall(context: &CaseContext) -> Outcome {
     let n = 128;
     let cells = [n, 16, n];
     let (gamma, alpha, beta) = (4e-3, 0.5, 0.5);
@@ -48,7 +48,7 @@ pub fn near_wall(stand: &Stand) -> Outcome {
         let u = gamma * y * (1.0 + alpha * (k * z).sin());
         (0.0, [u, 0.0, beta * gamma * y * (k * x).sin()])
     });
-    let (flow, nu_t) = prescribed(stand, cells, [false, true, false], &state)?;
+    let (flow, nu_t) = prescribed(context, cells, [false, true, false], &state)?;
     // The mean over each of the four layers next to the wall, (ky)² ≤ 0.03.
     let plane = |y: usize| {
         let rows = (0..n as usize).map(|z| n as usize * (y + 16 * z));
@@ -93,13 +93,13 @@ fn mean_near_wall(y: f64, k: f64, [gamma, alpha, beta]: [f64; 3]) -> f64 {
 }
 
 /// Solid rotation: S = 0, ν_t = C_w² (2/3)^¼ Ω, 0.226 Ω at C_w = 0.5.
-pub fn solid_rotation(stand: &Stand) -> Outcome {
+pub fn solid_rotation(context: &CaseContext) -> Outcome {
     let cells = [24, 24, 4];
     let spin = 2e-3;
     let state = fields::state(cells, |[x, y, _]| {
         (0.0, [-spin * (y - 12.0), spin * (x - 12.0), 0.0])
     });
-    let (flow, nu_t) = prescribed(stand, cells, [true, true, false], &state)?;
+    let (flow, nu_t) = prescribed(context, cells, [true, true, false], &state)?;
     let mean = nu_t.iter().sum::<f64>() / nu_t.len() as f64;
     let worst = nu_t.iter().map(|nu| (nu / mean - 1.0).abs());
     let trial = flow.trial();
@@ -120,7 +120,7 @@ pub fn solid_rotation(stand: &Stand) -> Outcome {
 
 /// A Taylor-Green vortex that decays at ν = 1e-5 on 32³ cells, ten turnovers of u = 0.05: the eddy viscosity evaluated every
 /// second step against every step.
-pub fn interval(stand: &Stand) -> Outcome {
+pub fn interval(context: &CaseContext) -> Outcome {
     let (cells, speed, nu) = ([32; 3], 0.05, 1e-5);
     let k = TAU / 32.0;
     let start = fields::state(cells, |[x, y, z]| {
@@ -132,9 +132,9 @@ pub fn interval(stand: &Stand) -> Outcome {
         )
     });
     let end = |wale_interval: u32| {
-        let mut setup = stand.setup(cells, nu);
+        let mut setup = context.setup(cells, nu);
         (setup.wale, setup.wale_interval) = (Some(CONSTANT), wale_interval);
-        let mut flow = stand.flow(setup, &start, true)?;
+        let mut flow = context.flow(setup, &start, true)?;
         flow.advance((10.0 / (k * speed)) as u64)?;
         let state = flow.state()?;
         anyhow::Ok((flow.trial(), state))
@@ -189,18 +189,18 @@ const SAMPLES: u32 = 200;
 const LIMIT: f64 = 0.05;
 
 /// Turbulent channel at Re_τ = 180 against Moser, Kim & Mansour 1999, on a GPU only: it takes 6·10¹¹ cell updates.
-pub fn turbulent_channel(stand: &Stand) -> Outcome {
-    if stand.software {
+pub fn turbulent_channel(context: &CaseContext) -> Outcome {
+    if context.software {
         println!("     left out, it needs a GPU: 6·10¹¹ cell updates");
         return Ok(Vec::new());
     }
     let h = f64::from(H);
     let nu = FRICTION * h / REYNOLDS;
-    let mut setup = stand.setup(CHANNEL, nu);
+    let mut setup = context.setup(CHANNEL, nu);
     setup.faces[1] = WALLS;
     setup.force = Force::Constant([FRICTION * FRICTION / h, 0.0, 0.0]);
     setup.wale = Some(CONSTANT);
-    let mut flow = stand.flow(
+    let mut flow = context.flow(
         setup,
         &fields::turbulent_channel(CHANNEL, h, FRICTION, REYNOLDS),
         true,

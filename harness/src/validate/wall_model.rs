@@ -1,7 +1,7 @@
 //! Wall model: a law of the wall gives the friction of walls whose near-wall layer the grid does not resolve.
 
 use super::{
-    Outcome, Record, Stand, fields,
+    CaseContext, Outcome, Record, fields,
     tank::{self, Tank, block, numbers},
 };
 use riprap::{
@@ -54,7 +54,7 @@ struct Means {
 }
 
 /// Mean velocity and profile of channels with the model; in the long form on other grids too, and without the model.
-pub fn channel(stand: &Stand) -> Outcome {
+pub fn channel(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for (reynolds, expected) in CHANNELS {
         let usual = Channel {
@@ -77,16 +77,16 @@ pub fn channel(stand: &Stand) -> Outcome {
                 ..usual
             },
         ];
-        let others = others.into_iter().filter(|_| stand.full);
+        let others = others.into_iter().filter(|_| context.full);
         for channel in std::iter::once(usual).chain(others) {
-            records.extend(channel.judge(stand)?);
+            records.extend(channel.judge(context)?);
         }
     }
     Ok(records)
 }
 
 /// Water over a rough bed: U_b/u_τ = 2.5 ln(h/k_s) + 6.0 (Keulegan 1938), the mean of the log law of a rough wall over the depth.
-pub fn rough_channel(stand: &Stand) -> Outcome {
+pub fn rough_channel(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for roughness in [0.1, 1.0] {
         let depth: u32 = 12;
@@ -98,7 +98,7 @@ pub fn rough_channel(stand: &Stand) -> Outcome {
             expected: 2.5 * (f64::from(depth) / roughness).ln() + 6.0,
             model: Some(WallModel::WernerWengle),
         };
-        records.extend(channel.judge(stand)?);
+        records.extend(channel.judge(context)?);
     }
     Ok(records)
 }
@@ -114,7 +114,7 @@ struct Plates {
 }
 
 /// Friction of plates that are blocks, with surfaces on cell faces and off them, at rest and moving, and without the model.
-pub fn blocks(stand: &Stand) -> Outcome {
+pub fn blocks(context: &CaseContext) -> Outcome {
     let rest = Plates {
         offset: 0.0,
         velocity: 0.0,
@@ -141,17 +141,17 @@ pub fn blocks(stand: &Stand) -> Outcome {
     ];
     let mut records = Vec::new();
     for plates in all {
-        records.extend(plates.judge(stand)?);
+        records.extend(plates.judge(context)?);
     }
     Ok(records)
 }
 
 impl Plates {
-    fn judge(&self, stand: &Stand) -> anyhow::Result<[Record; 2]> {
+    fn judge(&self, context: &CaseContext) -> anyhow::Result<[Record; 2]> {
         let (reynolds, expected) = CHANNELS[1];
         let friction = BULK / expected;
         let force = friction * friction / PLATES_H;
-        let mut tank = Tank::fill(stand, &self.scene(friction, reynolds)?)?;
+        let mut tank = Tank::fill(context, &self.scene(friction, reynolds)?)?;
         let time = 4.0 * PLATES_H / friction;
         tank.advance(time as u64)?;
         let each = (time as u64 / SAMPLES) | 1;
@@ -233,11 +233,11 @@ impl Channel {
         self.depth * if self.closed { 2 } else { 1 }
     }
 
-    fn judge(&self, stand: &Stand) -> anyhow::Result<Vec<Record>> {
+    fn judge(&self, context: &CaseContext) -> anyhow::Result<Vec<Record>> {
         let h = f64::from(self.depth);
         let friction = BULK / self.expected;
         let cells = [4 * self.depth, self.layers(), 2 * self.depth];
-        let mut setup = stand.setup(cells, friction * h / self.reynolds);
+        let mut setup = context.setup(cells, friction * h / self.reynolds);
         let other = if self.closed { WALL } else { Face::FreeSlip };
         setup.faces[1] = [WALL, other];
         setup.force = Force::Constant([friction * friction / h, 0.0, 0.0]);
@@ -249,9 +249,13 @@ impl Channel {
         let u = &mut start.velocity[0];
         let mean = u.iter().map(|u| f64::from(*u)).sum::<f64>() / u.len() as f64;
         u.iter_mut().for_each(|u| *u += (BULK - mean) as f32);
-        let mut flow = stand.flow(setup, &start, true)?;
+        let mut flow = context.flow(setup, &start, true)?;
         // Times h/u_τ until the flow no longer depends on its start, and over which means are taken.
-        let (settle, average) = if stand.full { (8.0, 16.0) } else { (4.0, 4.0) };
+        let (settle, average) = if context.full {
+            (8.0, 16.0)
+        } else {
+            (4.0, 4.0)
+        };
         flow.advance((settle * h / friction) as u64)?;
         // Odd, so that populations that alternate at walls contribute both of their states.
         let each = ((average * h / friction) as u64 / SAMPLES) | 1;

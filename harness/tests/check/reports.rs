@@ -66,7 +66,7 @@ fn a_scene_with_everything_names_its_kernels_and_solids() {
         .iter()
         .map(|k| k["entry"].as_str().unwrap())
         .collect();
-    for entry in ["reflect", "move_wall", "flow_out", "collide_stream"] {
+    for entry in ["reflect", "move_wall", "apply_outflow", "collide_stream"] {
         assert!(entries.contains(&entry), "{entries:?}");
     }
     let wale = |kernel: &Value| kernel["slots"]["eddy"] == "eddy_wale";

@@ -125,7 +125,7 @@ fn the_couette_scene_writes_what_it_asks_for() {
         (170, true, false)
     );
     let lattice = summary.lattice.unwrap();
-    assert_eq!((lattice.fluid_cells, lattice.bytes_a_cell), (2048, 216));
+    assert_eq!((lattice.fluid_cells, lattice.bytes_per_cell), (2048, 216));
     assert!(lattice.mlups > 0.0 && lattice.bandwidth_share > 0.0);
     // The plate has Mach 0.1, the fluid next to it less.
     let mach = lattice.max_mach;

@@ -75,7 +75,7 @@ impl DeviceBroadphase {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         self.bins.record(&mut encoder, &self.scan, &prepared.sorted);
         loop {
-            let search = Search {
+            let search = PairSearch {
                 levels,
                 slices: prepared.hits.slices,
                 first_pair: 0,
@@ -119,7 +119,7 @@ impl DeviceBroadphase {
         };
         let mut found: Vec<[u32; 2]> = Vec::with_capacity(pairs as usize);
         while found.len() < pairs as usize {
-            let search = Search {
+            let search = PairSearch {
                 levels,
                 slices: prepared.hits.slices,
                 first_pair: found.len() as u32,
@@ -173,7 +173,7 @@ const SLICE: u32 = 8192;
 /// Parameters of the kernels, in their layout.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct Search {
+pub struct PairSearch {
     /// Number of levels with boxes.
     pub levels: u32,
     /// Invocations per box.
@@ -229,7 +229,7 @@ impl Comparison {
         Ok(Self {
             count: pairs("found_count")?,
             write: pairs("found_write")?,
-            search: uniform(device, "search", size_of::<Search>() as u64),
+            search: uniform(device, "search", size_of::<PairSearch>() as u64),
             header: zeroed(device, "header", size_of::<Header>() as u64),
         })
     }
@@ -279,7 +279,7 @@ impl Comparison {
     }
 
     /// Writes the parameters of the next submission.
-    fn write_search(&self, queue: &wgpu::Queue, search: Search) {
+    fn write_search(&self, queue: &wgpu::Queue, search: PairSearch) {
         queue.write_buffer(&self.search, 0, bytemuck::bytes_of(&search));
     }
 

@@ -8,7 +8,7 @@ mod device;
 mod host;
 
 pub use boxes::{Boxes, FARTHEST};
-pub use device::{DeviceBroadphase, Header, Search};
+pub use device::{DeviceBroadphase, Header, PairSearch};
 pub use host::HostBroadphase;
 
 use crate::{Result, gpu::Processor};

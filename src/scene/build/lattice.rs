@@ -152,8 +152,8 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         |pascal_a_metre: f64| units.pressure_to_lattice(pascal_a_metre * units.cell) - 1.0;
     setup.open_face_gradient = gradient.map(density);
     match cpu {
-        Some(features) => setup.suit_cpu(features),
-        None => setup.suit_gpu(),
+        Some(features) => setup.use_cpu_layout(features),
+        None => setup.use_gpu_layout(),
     }
     if !scene.solids.is_empty() {
         // The weight for blocks, or the default weight of the operator.

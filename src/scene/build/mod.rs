@@ -8,7 +8,7 @@ mod lattice;
 mod particles;
 
 #[cfg(feature = "rock")]
-pub use blocks::{BlockSetup, LeftOut, block_setup};
+pub use blocks::{BlockSetup, DiscardedPieces, block_setup};
 #[cfg(feature = "sph")]
 pub(crate) use blocks::{rotation, shape};
 pub(crate) use keys::lattice_key;

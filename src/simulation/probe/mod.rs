@@ -32,7 +32,7 @@ pub use points::Layer;
 
 use crate::{
     Error, Result,
-    output::{Array, Image},
+    output::{Array, ImageData},
     scene::{Field, Probe, ProbePlace, Scene},
 };
 use cells::Cells;
@@ -200,7 +200,7 @@ impl Gauge {
     ///
     /// # Errors
     /// If the image lacks a field or has another size.
-    pub fn measure(&self, image: &Image) -> Result<Vec<Vec<f64>>> {
+    pub fn measure(&self, image: &ImageData) -> Result<Vec<Vec<f64>>> {
         let taken: Vec<Array> = image
             .arrays
             .iter()

@@ -2,7 +2,7 @@
 
 use super::cells::{Cells, Share, shares};
 use crate::{
-    output::{Array, Image},
+    output::{Array, ImageData},
     scene::{Axis, Direction, Field, Scene},
 };
 
@@ -111,7 +111,7 @@ fn numbered(mut points: Vec<Point>) -> (Points, Vec<u32>) {
 /// One layer of a scene's cells, as an image of its own.
 #[derive(Clone, Debug)]
 pub struct Layer {
-    frame: Image,
+    frame: ImageData,
     cells: Vec<u32>,
 }
 
@@ -125,7 +125,7 @@ impl Layer {
         let mut origin = scene.domain.origin;
         origin[axis.index()] += f64::from(number) * scene.domain.cell;
         Self {
-            frame: Image {
+            frame: ImageData {
                 origin,
                 spacing: scene.domain.cell,
                 cells: counts,
@@ -144,7 +144,7 @@ impl Layer {
     }
 
     /// The layer as an image without arrays, to be filled on [`Layer::cells`].
-    pub fn frame(&self) -> Image {
+    pub fn frame(&self) -> ImageData {
         self.frame.clone()
     }
 }

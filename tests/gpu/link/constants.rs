@@ -87,7 +87,9 @@ fn constants_of_blocks() {
         lane_axis: 2,
         brick: [4; 3],
     };
-    let linked = psm::combine_parts(&grid, psm::Walk::Serial).link().unwrap();
+    let linked = psm::combine_parts(&grid, psm::CellMapping::Serial)
+        .link()
+        .unwrap();
     check_family(&psm::constants(&grid), [linked]);
 }
 

@@ -6,8 +6,8 @@ use riprap::{
     gpu::link::{Program, SOURCES},
     lattice::{Grid, Setup as Fluid, SolidWeight, single_cells},
     psm::{
-        Forms, Walk, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise,
-        voxelise_edges,
+        CellMapping, Forms, combine_parts, reduce_blocks, reduce_faces, reduce_tiles, sum_faces,
+        voxelise, voxelise_edges,
     },
     sph::{self, CellGrid, EquationOfState, KERNELS, NeighbourSearch, Setup, Side},
 };
@@ -42,26 +42,32 @@ const POLYHEDRA: Forms = Forms {
 
 fn blocks(grid: &Grid) -> Vec<(&'static str, Program)> {
     vec![
-        ("voxelise", voxelise(grid, Walk::Serial, Forms::ALL, EXACT)),
         (
             "voxelise",
-            voxelise(grid, Walk::Parallel, Forms::ALL, STANDARD),
+            voxelise(grid, CellMapping::Serial, Forms::ALL, EXACT),
         ),
-        ("voxelise", voxelise(grid, Walk::Serial, SPHERES, EXACT)),
         (
             "voxelise",
-            voxelise(grid, Walk::Serial, POLYHEDRA, STANDARD),
+            voxelise(grid, CellMapping::Parallel, Forms::ALL, STANDARD),
+        ),
+        (
+            "voxelise",
+            voxelise(grid, CellMapping::Serial, SPHERES, EXACT),
+        ),
+        (
+            "voxelise",
+            voxelise(grid, CellMapping::Serial, POLYHEDRA, STANDARD),
         ),
         ("voxelise_edges", voxelise_edges(grid, Forms::ALL, EXACT)),
         ("voxelise_edges", voxelise_edges(grid, Forms::ALL, STANDARD)),
         ("voxelise_edges", voxelise_edges(grid, SPHERES, EXACT)),
         ("voxelise_edges", voxelise_edges(grid, POLYHEDRA, EXACT)),
-        ("combine_parts", combine_parts(grid, Walk::Serial)),
-        ("combine_parts", combine_parts(grid, Walk::Parallel)),
-        ("reduce_tiles", reduce_tiles(grid, Walk::Serial)),
-        ("reduce_tiles", reduce_tiles(grid, Walk::Parallel)),
-        ("reduce_faces", reduce_faces(grid, Walk::Serial)),
-        ("reduce_faces", reduce_faces(grid, Walk::Parallel)),
+        ("combine_parts", combine_parts(grid, CellMapping::Serial)),
+        ("combine_parts", combine_parts(grid, CellMapping::Parallel)),
+        ("reduce_tiles", reduce_tiles(grid, CellMapping::Serial)),
+        ("reduce_tiles", reduce_tiles(grid, CellMapping::Parallel)),
+        ("reduce_faces", reduce_faces(grid, CellMapping::Serial)),
+        ("reduce_faces", reduce_faces(grid, CellMapping::Parallel)),
         ("sum_faces", sum_faces()),
         ("reduce_blocks", reduce_blocks()),
     ]

@@ -70,7 +70,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "outflow",
-        &["flow_out", "remember"],
+        &["apply_outflow", "store_outflow"],
         &["cell_pass", "open_face", "face_cells", "carried"],
     ),
     (

@@ -10,7 +10,7 @@ use riprap::{
         layout::check,
         link::Program,
     },
-    rock::broadphase::{Aabb, Boxes, Header, Search},
+    rock::broadphase::{Aabb, Boxes, Header, PairSearch},
     wgpu,
 };
 use std::{collections::BTreeMap, mem::offset_of};
@@ -155,7 +155,7 @@ fn pairs_are_counted_and_written_in_slices_and_parts() {
         let bench = Workbench::new(width);
         let binned = Binned::new(&items);
         let constants = [("SLICE", f64::from(slice))];
-        let mut search = Search {
+        let mut search = PairSearch {
             levels: binned.boxes.levels.len() as u32,
             slices: 1,
             first_pair: 0,
@@ -166,7 +166,7 @@ fn pairs_are_counted_and_written_in_slices_and_parts() {
             ("groups_of", bench.buffer(&binned.groups())),
             ("levels", bench.buffer(&binned.boxes.levels)),
         ];
-        let run = |found: &str, search: &Search, own: [(&str, &wgpu::Buffer); 2]| {
+        let run = |found: &str, search: &PairSearch, own: [(&str, &wgpu::Buffer); 2]| {
             let search_buffer = bench.buffer(std::slice::from_ref(search));
             let mut buffers: Vec<_> = shared.iter().map(|(name, b)| (*name, b)).collect();
             buffers.push(("search", &search_buffer));
@@ -248,11 +248,11 @@ fn layouts() {
     ];
     check::<Level>(&pairs, "Level", &levels).unwrap();
     let searches = [
-        ("levels", offset_of!(Search, levels)),
-        ("slices", offset_of!(Search, slices)),
-        ("first_pair", offset_of!(Search, first_pair)),
+        ("levels", offset_of!(PairSearch, levels)),
+        ("slices", offset_of!(PairSearch, slices)),
+        ("first_pair", offset_of!(PairSearch, first_pair)),
     ];
-    check::<Search>(&pairs, "Search", &searches).unwrap();
+    check::<PairSearch>(&pairs, "PairSearch", &searches).unwrap();
     let headers = [
         ("candidates", offset_of!(Header, candidates)),
         ("pairs", offset_of!(Header, pairs)),

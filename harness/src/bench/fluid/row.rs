@@ -4,7 +4,7 @@
 use super::variant::Variant;
 use crate::bench::work::Work;
 use kit::clock::Turn;
-use riprap::lattice::{Lattice, Storage, bytes_a_cell, bytes_a_step};
+use riprap::lattice::{Lattice, Storage, bytes_per_cell, bytes_per_step};
 use serde::Serialize;
 use std::fmt;
 
@@ -35,9 +35,9 @@ pub struct Row {
     /// Million cells per second of wall time.
     pub mlups_wall: f64,
     /// Bytes that a step moves per cell away from walls.
-    pub bytes_a_cell: u64,
+    pub bytes_per_cell: u64,
     /// Total bytes that a step moves.
-    pub bytes_a_step: u64,
+    pub bytes_per_step: u64,
     /// Counted bytes per second, on the time base of `mlups`.
     pub bandwidth: f64,
     /// Bytes that the fastest copy reads and writes per second, in the same rounds.
@@ -86,7 +86,7 @@ impl StepWork {
             work.flops * u64::from(kernel.invocations()) * u64::from(groups)
         });
         Self {
-            bytes: bytes_a_step(lattice.setup(), lattice.grid(), lattice.geometry()),
+            bytes: bytes_per_step(lattice.setup(), lattice.grid(), lattice.geometry()),
             flops: kernels.sum(),
         }
     }
@@ -115,8 +115,8 @@ impl Row {
             ms_cpu: 1e3 * step.spent.cpu,
             mlups: cells / step.basis / 1e6,
             mlups_wall: cells / step.spent.wall / 1e6,
-            bytes_a_cell: bytes_a_cell(&variant.setup),
-            bytes_a_step: work.bytes,
+            bytes_per_cell: bytes_per_cell(&variant.setup),
+            bytes_per_step: work.bytes,
             bandwidth,
             copy_bandwidth: ceilings.copy_bandwidth,
             share_of_copy: bandwidth / ceilings.copy_bandwidth,
@@ -154,7 +154,7 @@ impl fmt::Display for Row {
             self.ms_wall,
             self.ms_cpu,
             self.mlups,
-            self.bytes_a_cell,
+            self.bytes_per_cell,
             self.bandwidth / 1e9,
             100.0 * self.share_of_copy,
             100.0 * self.ratio_to_stream_only
@@ -226,7 +226,7 @@ pub fn explain(grid: u32, rows: &[Row]) {
             row.variant,
             row.storage,
             row.lanes,
-            row.bytes_a_cell,
+            row.bytes_per_cell,
             row.flops_a_cell,
             100.0 * copy,
             100.0 * places,

@@ -148,8 +148,8 @@ pub fn plain(
     let mut setup = Setup::periodic([grid; 3], 0.01);
     (setup.storage, setup.lanes, setup.max_speed) = (storage, lanes, 0.0);
     match software {
-        true => setup.suit_cpu(device.features()),
-        false => setup.suit_gpu(),
+        true => setup.use_cpu_layout(device.features()),
+        false => setup.use_gpu_layout(),
     }
     setup
 }

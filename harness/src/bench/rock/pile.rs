@@ -243,7 +243,7 @@ impl Split {
         })?;
         let mut apart = pile.apart()?;
         let motion = fastest(rounds, 1, || {
-            if apart.wants_pairs() {
+            if apart.needs_pairs() {
                 apart.set_pairs(Vec::new())?;
             }
             core.time(|| apart.step())

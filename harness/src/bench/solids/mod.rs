@@ -2,7 +2,7 @@
 
 mod world;
 
-pub use world::{Turns, World, crowd};
+pub use world::{InterleavedRuns, World, crowd};
 
 use super::{
     Bench,
@@ -113,7 +113,7 @@ impl Plan {
 pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let plan = Plan::new(bench.machine.software, bench.quick, bench.full);
     let (rounds, long) = if bench.quick { (3, 0.1) } else { (7, 0.3) };
-    let turns = Turns::new(bench, rounds, long);
+    let turns = InterleavedRuns::new(bench, rounds, long);
     let mut table = Table::begin("solids");
     let n = plan.crowd;
     let spheres = world::crowd(n, ACROSS, SHARE);
@@ -230,7 +230,7 @@ const STRIDE: f64 = 0.37;
 
 /// Seconds to compute the solid fractions of a moving sphere of `across` cells: tiles, their cells, and the velocity of the solid
 /// there.
-fn solid_fractions(turns: &Turns, across: u32) -> anyhow::Result<f64> {
+fn solid_fractions(turns: &InterleavedRuns, across: u32) -> anyhow::Result<f64> {
     let (device, queue) = (&turns.clock.device, &turns.clock.queue);
     let edge = (across + 16).next_multiple_of(16);
     let mut setup = Setup::periodic([edge; 3], 0.03);

@@ -212,7 +212,7 @@ pub fn crowd(n: u32, across: f64, share: f64) -> Vec<[f64; 3]> {
 }
 
 /// Measurement of worlds in turns.
-pub struct Turns {
+pub struct InterleavedRuns {
     pub clock: Clock,
     pub rounds: usize,
     /// Duration of a turn, s.
@@ -235,7 +235,7 @@ impl Times {
     }
 }
 
-impl Turns {
+impl InterleavedRuns {
     pub fn new(bench: &Bench<'_>, rounds: usize, long: f64) -> Self {
         Self {
             clock: bench.clock(),

@@ -13,7 +13,7 @@ use riprap::{
     Error,
     coupling::{Coupled, JointLoad},
     psm::FaceLoad,
-    safety::Standing,
+    safety::SafetyFactors,
     scene::Probe,
     simulation::voigt,
 };
@@ -74,7 +74,7 @@ pub fn recorders(
             format!("there is no block `{name}`"),
         )
     })?;
-    let row = move |rock: &Rock<'_>, standing: Option<&Standing>| {
+    let row = move |rock: &Rock<'_>, standing: Option<&SafetyFactors>| {
         let mut row = measure(rock, block);
         if let (true, Some(coupled)) = (faces, rock.coupled) {
             measure_faces(&mut row, coupled, block, rock.blocks.gravity());
@@ -237,8 +237,8 @@ fn face_row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Row {
 }
 
 /// The factors of safety of a block.
-fn standing(rock: &Rock<'_>, block: usize) -> Standing {
-    Standing::of(rock.setup, rock.blocks, block, fluid_wrench(rock, block))
+fn standing(rock: &Rock<'_>, block: usize) -> SafetyFactors {
+    SafetyFactors::of(rock.setup, rock.blocks, block, fluid_wrench(rock, block))
 }
 
 /// Force (N) and torque about its centroid (N m) of the fluid on a block, buoyancy included; closed joints hold the water

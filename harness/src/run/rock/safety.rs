@@ -1,6 +1,6 @@
 //! Factors of safety of blocks whose probes request them.
 
-use riprap::safety::Standing;
+use riprap::safety::SafetyFactors;
 use serde::Serialize;
 use std::fmt;
 
@@ -30,7 +30,7 @@ pub struct Factors {
 
 impl Safety {
     /// Adds the standing of `block` at `time` (s) to `all`.
-    pub fn note(all: &mut Vec<Self>, block: &str, time: f64, now: &Standing) {
+    pub fn note(all: &mut Vec<Self>, block: &str, time: f64, now: &SafetyFactors) {
         let last = Factors {
             sliding: now.sliding.factor,
             uplift: now.uplift,
@@ -86,14 +86,14 @@ mod tests {
     use super::*;
     use riprap::safety::{Mode, Sliding};
 
-    fn standing(sliding: f64, uplift: f64, toppling: f64) -> Standing {
+    fn standing(sliding: f64, uplift: f64, toppling: f64) -> SafetyFactors {
         let sliding = Sliding {
             factor: sliding,
             mode: Mode::Held,
             direction: Default::default(),
             driving: 0.0,
         };
-        Standing {
+        SafetyFactors {
             sliding,
             uplift,
             toppling,

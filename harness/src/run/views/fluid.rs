@@ -12,7 +12,7 @@ use crate::{
 use anyhow::Result;
 use riprap::{
     geometry::Pose,
-    output::Image,
+    output::ImageData,
     scene::{Field, Scene, SliceField, View, ViewSlice},
     simulation::probe::Layer,
 };
@@ -102,13 +102,13 @@ impl Fluid {
         run: &mut SceneRun,
         field: Field,
         cells: &[u32],
-        frame: Image,
-    ) -> Result<Image> {
+        frame: ImageData,
+    ) -> Result<ImageData> {
         let mut fields = vec![field];
         if self.solids {
             fields.push(Field::Solid);
         }
-        Ok(Image {
+        Ok(ImageData {
             arrays: run.read(&fields, cells)?,
             ..frame
         })
@@ -120,7 +120,7 @@ const MOST_CELLS: f64 = 4e6;
 
 /// Every n-th cell of a scene along each axis, as an image of its own.
 struct Coarse {
-    frame: Image,
+    frame: ImageData,
     cells: Vec<u32>,
 }
 
@@ -147,7 +147,7 @@ impl Coarse {
         });
         Self {
             cells: cells.collect(),
-            frame: Image {
+            frame: ImageData {
                 origin,
                 spacing,
                 cells: taken.map(|along| along.count()),
@@ -162,7 +162,7 @@ impl Coarse {
     }
 
     /// The coarse cells as an image without arrays, to be filled on [`Self::cells`].
-    fn frame(&self) -> Image {
+    fn frame(&self) -> ImageData {
         self.frame.clone()
     }
 }

@@ -1,7 +1,7 @@
 //! Blocks with uniform deformation (Mikola & Sitar 2014, §2), against exact solutions of affine bodies.
 
 use super::{DENSITY, G, Rock, cuboid, floor, joint, setup};
-use crate::validate::{Outcome, Stand, Trial};
+use crate::validate::{CaseContext, Outcome, Trial};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
     geometry::skew,
@@ -71,7 +71,7 @@ fn largest(edges: DVec3, share: f64, steps: u64) -> (f64, Trial) {
 
 /// Δt_c = 2/ω_max of the nine-by-nine elastic problem of a block and of a cube; the central difference must be stable just below
 /// it and unstable just above.
-pub fn critical_step(_: &Stand) -> Outcome {
+pub fn critical_step(_: &CaseContext) -> Outcome {
     let trial = Trial {
         setup: "E = 1 GPa, ν = 0.25, ρ = 2500 kg/m³".into(),
         cells: 1,
@@ -113,7 +113,7 @@ const OMEGA: f64 = 20.0;
 /// A block that spins at a constant rate: its centrifugal strain is known exactly, and it must not grow. With F = R U and U
 /// constant, U Σ = ω² U S/V in the plane of rotation, so that Σ = ω² S/V there. Checks strain, angular momentum and energy over a
 /// hundred revolutions; over a thousand with `--full`.
-pub fn spin(stand: &Stand) -> Outcome {
+pub fn spin(context: &CaseContext) -> Outcome {
     let begin = Instant::now();
     let body = alone(DVec3::new(1.0, 2.0, 3.0));
     let stress = DVec3::new(0.0, 4.0, 9.0) * (DENSITY / 12.0 * OMEGA * OMEGA);
@@ -125,7 +125,7 @@ pub fn spin(stand: &Stand) -> Outcome {
     let start = body.angular_momentum(f, rate);
     let energy = |f, rate| body.kinetic(rate) + body.strain_energy(f);
     let before = energy(f, rate);
-    let revolutions = if stand.full { 1000.0 } else { 100.0 };
+    let revolutions = if context.full { 1000.0 } else { 100.0 };
     let dt = 0.1 * body.critical_step();
     let steps = (revolutions * TAU / OMEGA / dt) as u64;
     let (mut strain, mut momentum, mut gain) = (0.0f64, 0.0f64, 0.0f64);
@@ -160,7 +160,7 @@ const PERIODS: usize = 50;
 
 /// A cube that vibrates in its volume: ω² = 12(3λ + 2μ)/(ρa²); the central difference shortens the period by (ωΔt)²/24. Measures
 /// the period at three time steps, and its order.
-pub fn vibration(_: &Stand) -> Outcome {
+pub fn vibration(_: &CaseContext) -> Outcome {
     let a = 2.0;
     let [lambda, mu] = ROCK.lame();
     let omega = (12.0 * (3.0 * lambda + 2.0 * mu) / (DENSITY * a * a)).sqrt();
@@ -204,7 +204,7 @@ const LENGTH: f64 = 10.0;
 
 /// A bar that hangs by a point of its upper face: V P = mg ⊗ X, which gives the mean stress ρgL/2 and the elongation ρgL²/2E of
 /// the exact solution. Checks stress, elongation, thinning by Poisson's ratio, support force and energies at rest.
-pub fn bar(_: &Stand) -> Outcome {
+pub fn bar(_: &CaseContext) -> Outcome {
     let top = DVec3::Z * (0.5 * LENGTH);
     let mut bar = Block::new("bar", cuboid(1.0, 0.8, LENGTH)?, DVec3::ZERO);
     bar.deformable = Some(Deformable {
@@ -261,7 +261,7 @@ pub fn bar(_: &Stand) -> Outcome {
 }
 
 /// Cubes on a rigid floor, the second of them rigid: each bears half its own weight and the cubes above it.
-pub fn stack(_: &Stand) -> Outcome {
+pub fn stack(_: &CaseContext) -> Outcome {
     let mut list = vec![floor(9.0)?];
     for n in 0..4 {
         let at = DVec3::Z * (0.5 + f64::from(n));
@@ -294,7 +294,7 @@ pub fn stack(_: &Stand) -> Outcome {
 }
 
 /// Two bars that collide end to end without damping.
-pub fn collision(_: &Stand) -> Outcome {
+pub fn collision(_: &CaseContext) -> Outcome {
     let bar = |name: &str, x: f64, v: f64| -> anyhow::Result<Block> {
         let block = Block::new(name, cuboid(2.0, 0.5, 0.5)?, DVec3::X * x).deformable();
         Ok(Block {
@@ -337,7 +337,7 @@ pub fn collision(_: &Stand) -> Outcome {
 /// Centroid and rotation 0.2 s after the throw; the block is rigid if `young` is `None`.
 fn thrown(young: Option<f64>) -> anyhow::Result<(DVec3, DQuat, Trial)> {
     let turn = DQuat::from_scaled_axis(DVec3::new(0.3, 0.2, 0.1));
-    let mut block = Block::new("thrown", cuboid(1.0, 0.8, 0.6)?, DVec3::Z * 0.55).turned(turn);
+    let mut block = Block::new("thrown", cuboid(1.0, 0.8, 0.6)?, DVec3::Z * 0.55).rotated(turn);
     (block.velocity, block.spin) = (DVec3::new(1.0, 0.3, -1.0), DVec3::new(0.5, -1.0, 2.0));
     if young.is_some() {
         block = block.deformable();
@@ -359,7 +359,7 @@ fn thrown(young: Option<f64>) -> anyhow::Result<(DVec3, DQuat, Trial)> {
 
 /// A block thrown onto a floor approaches the motion of a rigid one as it gets stiffer: the difference at three moduli falls
 /// with 1/E.
-pub fn rigid_limit(_: &Stand) -> Outcome {
+pub fn rigid_limit(_: &CaseContext) -> Outcome {
     let (centre, rotation, _) = thrown(None)?;
     let mut records = Vec::new();
     let mut before = None;

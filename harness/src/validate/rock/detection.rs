@@ -1,7 +1,7 @@
 //! Pairs of both broadphases against all pairs tried, and contact decisions against parry's GJK and EPA, which share nothing with
 //! linear programs.
 
-use crate::validate::{Outcome, Stand, Trial};
+use crate::validate::{CaseContext, Outcome, Trial};
 use cpu_time::ProcessTime;
 use kit::{
     broadphase::brute_force,
@@ -22,8 +22,8 @@ const RATIO: f64 = 100.0;
 ///
 /// parry's answer is reliable for a gap, where its distance is well conditioned. For an overlap it is reliable if its depth does
 /// not exceed the distance by which the blocks were moved: below some 1e-8 its EPA at times returns the depth of another face.
-pub fn sign(stand: &Stand) -> Outcome {
-    let wanted = if stand.full { 100_000 } else { 10_000 };
+pub fn sign(context: &CaseContext) -> Outcome {
+    let wanted = if context.full { 100_000 } else { 10_000 };
     let mut random = Random(2018);
     let mut resolver = Resolver::new(Options::default());
     let (mut seen, mut wrong) = ([0u64; 2], 0u64);
@@ -102,10 +102,10 @@ fn differences(a: &[[u32; 2]], b: &[[u32; 2]]) -> f64 {
 }
 
 /// 10² to 10⁵ boxes; every pair is tried up to 10⁴, with `--full` up to 10⁵.
-pub fn broadphase(stand: &Stand) -> Outcome {
+pub fn broadphase(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     let mut costs = Vec::new();
-    let mut on_device = DeviceBroadphase::new(&stand.device, &stand.queue)?;
+    let mut on_device = DeviceBroadphase::new(&context.device, &context.queue)?;
     for exponent in 2..=5 {
         let count = 10u32.pow(exponent);
         let items = items(count);
@@ -133,10 +133,10 @@ pub fn broadphase(stand: &Stand) -> Outcome {
         let pairs = found.len() as f64;
         records.push(trial.report("pairs a box", pairs / f64::from(count)));
         records.push(trial.report("CPU time a list, s", seconds));
-        let device = stand.drive("a search for pairs", on_device.pairs(&items))??;
+        let device = context.drive("a search for pairs", on_device.pairs(&items))??;
         let differ = differences(&found, &device);
         records.push(trial.at_most("pairs that the device finds otherwise", differ, 0.0));
-        if exponent <= 4 || stand.full {
+        if exponent <= 4 || context.full {
             let off = differences(&found, &brute_force(&items));
             records.push(trial.at_most("pairs that every pair tried finds otherwise", off, 0.0));
         }

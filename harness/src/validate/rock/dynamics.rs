@@ -1,7 +1,7 @@
 //! Motions with exact solutions: a rebound, and free rotation.
 
 use super::{DENSITY, Rock, cuboid, joint, setup};
-use crate::validate::{Outcome, Stand, Trial};
+use crate::validate::{CaseContext, Outcome, Trial};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::rock::{
     Block,
@@ -21,7 +21,7 @@ fn exact(zeta: f64) -> f64 {
 
 /// A block hits a fixed one and rebounds: the contact damps, but does not pull. Checks the rebound without damping and at four
 /// damping ratios, and the energy ledger.
-pub fn rebound(_: &Stand) -> Outcome {
+pub fn rebound(_: &CaseContext) -> Outcome {
     let omega = (STIFFNESS / DENSITY).sqrt();
     let mut records = Vec::new();
     for (zeta, limits) in [
@@ -88,7 +88,7 @@ fn spun(steps: u32, dt: f64) -> Spun {
 }
 
 /// Free rotation of the asymmetric body: order, bound of the energy over 4·10⁴ steps, angular momentum.
-pub fn free_body(_: &Stand) -> Outcome {
+pub fn free_body(_: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     let mut errors = Vec::new();
     for dt in [0.1, 0.05, 0.025] {

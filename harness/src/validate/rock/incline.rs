@@ -1,7 +1,7 @@
 //! Blocks on inclined planes: one that slides, one that topples, and a wedge on two planes.
 
 use super::{DENSITY, G, Rock, cuboid, joint, setup, slope};
-use crate::validate::{Outcome, Stand, Trial};
+use crate::validate::{CaseContext, Outcome, Trial};
 use glam::DVec3;
 use riprap::{
     geometry::{HalfSpace, Polyhedron},
@@ -21,12 +21,12 @@ fn on_incline(phi: f64) -> anyhow::Result<Setup> {
     let plate = Block::new("plate", plate, turn * DVec3::new(4.0, 0.0, -0.5));
     let at = turn * DVec3::Z * (0.5 * HEIGHT - pressed);
     let block = Block::new("block", cuboid(1.0, 1.0, HEIGHT)?, at);
-    let list = vec![plate.fixed().turned(turn), block.turned(turn)];
+    let list = vec![plate.fixed().rotated(turn), block.rotated(turn)];
     Ok(setup(list, joint(STIFFNESS, phi)))
 }
 
 /// A block on an incline of 30°, s = ½gt²(sin α − cos α tan φ): it slides at φ = 20°, slips at 29.9°, holds at 30.1°.
-pub fn slides(_: &Stand) -> Outcome {
+pub fn slides(_: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for (phi, limit) in [(20.0f64, Some(1e-3)), (29.9, Some(1e-2)), (30.1, None)] {
         let what = format!("α = {ALPHA}°, φ = {phi}°, k = {STIFFNESS:.0e} Pa/m");
@@ -51,7 +51,7 @@ pub fn slides(_: &Stand) -> Outcome {
 const COLUMN_STIFFNESS: f64 = 4e11;
 
 /// A column topples if tan α > b/h: one of 1 m × 1 m × 2 m, 0.3° below and above.
-pub fn toppling(_: &Stand) -> Outcome {
+pub fn toppling(_: &CaseContext) -> Outcome {
     let threshold = 0.5f64.atan().to_degrees();
     let mut records = Vec::new();
     for off in [-0.3, 0.3] {
@@ -59,7 +59,7 @@ pub fn toppling(_: &Stand) -> Outcome {
         let turn = slope(alpha);
         let plate = Block::new("plate", cuboid(5.0, 5.0, 1.0)?, turn * DVec3::Z * -0.5);
         let column = Block::new("column", cuboid(1.0, 1.0, 2.0)?, turn * DVec3::Z);
-        let list = vec![plate.fixed().turned(turn), column.turned(turn)];
+        let list = vec![plate.fixed().rotated(turn), column.rotated(turn)];
         let setup = setup(list, joint(COLUMN_STIFFNESS, 50.0));
         let what = format!("1 x 1 x 2 m at {alpha:.3}°, k = {COLUMN_STIFFNESS:.0e} Pa/m");
         let mut rock = Rock::from_rest(setup.clone(), 20.0, 0.3, setup, what)?;
@@ -188,7 +188,7 @@ fn area(shape: &Polyhedron, normal: DVec3) -> f64 {
 }
 
 /// Both wedges, tan φ scaled to factors of safety of 0.99 and 1.01.
-pub fn wedge(_: &Stand) -> Outcome {
+pub fn wedge(_: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for (planes, expected) in WEDGES {
         let wedge = Wedge::new(planes);

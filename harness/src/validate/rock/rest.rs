@@ -1,7 +1,7 @@
 //! Stable structures at rest: a stack of ten, a pyramid of 55, a masonry arch.
 
 use super::{G, Rock, cuboid, floor, joint, setup};
-use crate::validate::{Outcome, Stand};
+use crate::validate::{CaseContext, Outcome};
 use glam::{DQuat, DVec3};
 use riprap::{
     geometry::Polyhedron,
@@ -49,20 +49,20 @@ fn settle(list: Vec<Block>, what: &str, (damping, time): (f64, f64), even: Optio
 }
 
 /// Ten cubes in a crooked stack.
-pub fn stack(_: &Stand) -> Outcome {
+pub fn stack(_: &CaseContext) -> Outcome {
     let mut list = vec![floor(15.0)?];
     for i in 0..10 {
         let k = f64::from(i);
         let (x, y) = (0.03 * (1.7 * k).sin(), 0.03 * (2.9 * k).cos());
         let turn = DQuat::from_rotation_z(0.3 * k.sin());
         let at = DVec3::new(x, y, 0.5 + k);
-        list.push(Block::new(format!("{i}"), cuboid(1.0, 1.0, 1.0)?, at).turned(turn));
+        list.push(Block::new(format!("{i}"), cuboid(1.0, 1.0, 1.0)?, at).rotated(turn));
     }
     settle(list, "crooked stack of 10", (12.0, 4.0), Some(0.01))
 }
 
 /// Ten courses of 10 to 1 cubes.
-pub fn pyramid(_: &Stand) -> Outcome {
+pub fn pyramid(_: &CaseContext) -> Outcome {
     let mut list = vec![floor(15.0)?];
     for row in 0..10u32 {
         for i in 0..10 - row {
@@ -75,7 +75,7 @@ pub fn pyramid(_: &Stand) -> Outcome {
 }
 
 /// Fifteen stones between radii of 4 and 5 m.
-pub fn arch(_: &Stand) -> Outcome {
+pub fn arch(_: &CaseContext) -> Outcome {
     const STONES: u32 = 15;
     let mut list = vec![floor(15.0)?];
     let step = PI / f64::from(STONES);

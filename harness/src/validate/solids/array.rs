@@ -3,7 +3,7 @@
 
 use super::periodic_flow::{Body, Drag, PeriodicFlow, static_solids};
 use crate::picture::{Chart, Curve, Mark, Measure};
-use crate::validate::{Method, Outcome, Record, Stand};
+use crate::validate::{CaseContext, Method, Outcome, Record};
 use riprap::scene::{BlockShape, Rotation, Solid, SolidSurface};
 use std::f64::consts::PI;
 
@@ -70,7 +70,7 @@ impl Array {
     ///
     /// # Errors
     /// If the flow does not become steady, or leaves the range of the method.
-    pub fn measure(&self, stand: &Stand) -> anyhow::Result<Measured> {
+    pub fn measure(&self, context: &CaseContext) -> anyhow::Result<Measured> {
         let radius = 0.5 * self.diameter();
         let body = match self.surface {
             Some(surface) => Body::Cells(static_sphere(self.edge, radius, surface)?),
@@ -89,7 +89,7 @@ impl Array {
             method: self.method,
             expected,
         };
-        let drag = flow.measure(stand, &format!("spheres c {}", self.concentration))?;
+        let drag = flow.measure(context, &format!("spheres c {}", self.concentration))?;
         Ok(Measured {
             ratio: drag.resistance / expected,
             drag,
@@ -114,11 +114,11 @@ impl Measured {
 }
 
 /// Spheres of 5 and 10 cells; with `--full` finer ones and other concentrations.
-pub fn drag(stand: &Stand) -> Outcome {
+pub fn drag(context: &CaseContext) -> Outcome {
     // Concentration, edge of the cube, limit. For the usual concentration, 8, 16, 24 and 32 cells give D = 5.0, 9.9, 14.9 and
     // 19.9; for the others D = 9.3 and 11.9.
     let mut arrays = vec![(USUAL, 8, 3e-2), (USUAL, 16, 1e-2)];
-    if stand.full {
+    if context.full {
         arrays.extend([(USUAL, 24, 1e-2), (USUAL, 32, 1e-2)]);
         arrays.extend([(0.027, 25, 1e-2), (0.216, 16, 1e-2)]);
     }
@@ -128,10 +128,10 @@ pub fn drag(stand: &Stand) -> Outcome {
     };
     let mut records = Vec::new();
     for (array, tau, limit) in arrays.into_iter().flat_map(each) {
-        if stand.software && array.edge > 16 && tau < QUICK {
+        if context.software && array.edge > 16 && tau < QUICK {
             continue;
         }
-        let found = array.measure(stand)?;
+        let found = array.measure(context)?;
         records.push(found.record(&array, Some(limit)));
         let quantity = "force on the sphere / push on the fluid − 1";
         let balance = found.drag.balance.abs();
@@ -156,7 +156,7 @@ fn static_sphere(edge: u32, radius: f64, surface: SolidSurface) -> anyhow::Resul
 }
 
 /// Spheres of 10 cells as static solids: exact surfaces, judged like blocks, and staircases.
-pub fn at_rest(stand: &Stand) -> Outcome {
+pub fn at_rest(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for tau in [0.6, 1.0, 1.5] {
         for (surface, name, limit) in [
@@ -167,7 +167,7 @@ pub fn at_rest(stand: &Stand) -> Outcome {
                 surface: Some(surface),
                 ..Array::new(USUAL, 16, tau)
             };
-            let found = array.measure(stand)?;
+            let found = array.measure(context)?;
             let diameter = array.diameter();
             let quantity = format!("{name}: K / K(Z&H), D = {diameter:.1}, τ = {tau}");
             let trial = &found.drag.trial;
@@ -178,13 +178,13 @@ pub fn at_rest(stand: &Stand) -> Outcome {
 }
 
 /// The position of the centre of a sphere within its cell must not matter.
-pub fn offset(stand: &Stand) -> Outcome {
+pub fn offset(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for tau in [0.6, 1.0] {
         let straight = Array::new(USUAL, 16, tau);
-        let expected = straight.measure(stand)?.ratio;
+        let expected = straight.measure(context)?.ratio;
         for offset in OFFSETS {
-            let found = Array { offset, ..straight }.measure(stand)?;
+            let found = Array { offset, ..straight }.measure(context)?;
             let quantity = format!("K off by {offset:?} / K, τ = {tau}");
             let ratio = found.ratio / expected;
             records.push(found.drag.trial.relative(quantity, ratio, 1.0, 3e-3));
@@ -194,7 +194,7 @@ pub fn offset(stand: &Stand) -> Outcome {
 }
 
 /// Other concentrations and the other operators, for which there are no limits.
-pub fn comparison(stand: &Stand) -> Outcome {
+pub fn comparison(context: &CaseContext) -> Outcome {
     let mut arrays = vec![Array::new(0.027, 16, 1.0), Array::new(0.343, 12, 1.0)];
     let operators = [
         Method::NOBLE,
@@ -202,7 +202,7 @@ pub fn comparison(stand: &Stand) -> Outcome {
         Method::STANDARD_WEIGHT,
     ];
     arrays.extend(operators.map(|operator| Array::new(USUAL, 16, 1.0).by(operator)));
-    if stand.full {
+    if context.full {
         for tau in [0.6, 1.0] {
             arrays.extend([Array::new(0.027, 28, tau), Array::new(0.343, 12, tau)]);
             arrays.push(Array::new(0.343, 24, tau));
@@ -211,7 +211,7 @@ pub fn comparison(stand: &Stand) -> Outcome {
     }
     let mut records = Vec::new();
     for array in arrays {
-        records.push(array.measure(stand)?.record(&array, None));
+        records.push(array.measure(context)?.record(&array, None));
     }
     Ok(records)
 }
@@ -221,10 +221,10 @@ pub fn comparison(stand: &Stand) -> Outcome {
 const QUICK: f64 = 0.8;
 
 /// The error over resolution and relaxation time, as a table and a picture.
-pub fn map(stand: &Stand) -> Outcome {
+pub fn map(context: &CaseContext) -> Outcome {
     // D = 5, 9.9, 19.9, 39.7, and the smallest relaxation time for each.
-    let slow = if stand.software { QUICK } else { 0.0 };
-    let grids: &[(u32, f64)] = match stand.full {
+    let slow = if context.software { QUICK } else { 0.0 };
+    let grids: &[(u32, f64)] = match context.full {
         true => &[(8, 0.0), (16, 0.0), (32, 0.0), (64, slow)],
         false => &[(8, 0.0), (16, 0.0), (32, QUICK)],
     };
@@ -236,7 +236,7 @@ pub fn map(stand: &Stand) -> Outcome {
                 continue;
             }
             let array = Array::new(USUAL, edge, tau);
-            let found = array.measure(stand)?;
+            let found = array.measure(context)?;
             records.push(found.record(&array, None));
             let error = 100.0 * (found.ratio - 1.0);
             points.push([tau, error]);
@@ -261,8 +261,8 @@ pub fn map(stand: &Stand) -> Outcome {
         Measure::linear("K / K(Zick & Homsy) − 1", "%"),
         curves,
     );
-    stand.draw("solids_array", &chart)?;
+    context.draw("solids_array", &chart)?;
     let heads = ["diameter", "tau", "error_percent", "steps", "seconds"];
-    stand.write_table("solids_array", heads, &table)?;
+    context.write_table("solids_array", heads, &table)?;
     Ok(records)
 }

@@ -1,7 +1,7 @@
 //! A block at rest in a closed tank: the load on it is ρVg and nothing else.
 
 use crate::validate::{
-    Outcome, Stand,
+    CaseContext, Outcome,
     tank::{self, Tank, block, numbers, turn},
 };
 use riprap::scene::{BlockShape, Motion, Scene};
@@ -28,7 +28,7 @@ fn cube(tau: f64, turned: bool, motion: Motion) -> anyhow::Result<Scene> {
 }
 
 /// Buoyancy is ρVg at any viscosity, with gravity acting on fluid and rock or on the rock only.
-pub fn archimedes(stand: &Stand) -> Outcome {
+pub fn archimedes(context: &CaseContext) -> Outcome {
     let runs = [
         (0.55, true, true),
         (0.8, true, true),
@@ -44,7 +44,7 @@ pub fn archimedes(stand: &Stand) -> Outcome {
             scene.fluid.acceleration = numbers(scene.rock.gravity);
         }
         scene.coupling.interval = (STEPS / 8) as u32;
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         tank.advance(STEPS)?;
         let load = tank.load(0);
         let force = load.flow.force + load.buoyancy.force;
@@ -66,12 +66,12 @@ pub fn archimedes(stand: &Stand) -> Outcome {
 }
 
 /// A cube as heavy as water stays where it is.
-pub fn neutral(stand: &Stand) -> Outcome {
+pub fn neutral(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for tau in [0.55, 1.0] {
         let mut scene = cube(tau, true, Motion::Free)?;
         scene.fluid.acceleration = numbers(scene.rock.gravity);
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         let start = tank.pose(0);
         tank.advance(STEPS)?;
         let end = tank.pose(0);

@@ -1,7 +1,7 @@
 //! Conservation with blocks in a fluid: momentum, mass, and volume.
 
 use crate::validate::{
-    Outcome, Stand,
+    CaseContext, Outcome,
     tank::{self, Tank, block, numbers, turn},
 };
 use glam::DVec3;
@@ -12,7 +12,7 @@ const STEPS: u64 = 300;
 
 /// Momentum of fluid and blocks in a periodic box, and mass of the fluid: a stream carries along a sphere, a cube and a
 /// tetrahedron.
-pub fn momentum(stand: &Stand) -> Outcome {
+pub fn momentum(context: &CaseContext) -> Outcome {
     let shapes = [
         (BlockShape::Sphere { radius: 4.0 }, [8.3, 8.0, 7.6]),
         (BlockShape::Box { size: [7.0; 3] }, [24.0, 23.5, 8.2]),
@@ -30,7 +30,7 @@ pub fn momentum(stand: &Stand) -> Outcome {
             made.spin = numbers([0.002, -0.001, 0.003]);
             scene.blocks.push(made);
         }
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         let before = Ledger::of(&mut tank)?;
         tank.advance(STEPS)?;
         let after = Ledger::of(&mut tank)?;
@@ -88,7 +88,7 @@ const FULL_TURNS: u32 = 16;
 
 /// The solid fractions of the cells of a block add up to its volume: cubes, tetrahedra and icosahedra, rotated and shifted
 /// against the grid.
-pub fn volume(stand: &Stand) -> Outcome {
+pub fn volume(context: &CaseContext) -> Outcome {
     let tetrahedron = ACROSS;
     // ACROSS is twice the radius of the circumscribed sphere.
     let icosahedron = ACROSS / (10.0 + 2.0 * 5f64.sqrt()).sqrt() * 2.0;
@@ -109,7 +109,7 @@ pub fn volume(stand: &Stand) -> Outcome {
             icosahedron.powi(3) * 5.0 / 12.0 * (3.0 + 5f64.sqrt()),
         ),
     ];
-    let turns = if stand.full { FULL_TURNS } else { TURNS };
+    let turns = if context.full { FULL_TURNS } else { TURNS };
     let mut scene = tank::scene(
         [shapes.len() as u32 * SPACING, turns * SPACING, SPACING],
         1.0,
@@ -126,7 +126,7 @@ pub fn volume(stand: &Stand) -> Outcome {
             scene.blocks.push(made);
         }
     }
-    let mut tank = Tank::fill(stand, &scene)?;
+    let mut tank = Tank::fill(context, &scene)?;
     tank.advance(1)?;
     let trial = tank.trial(&format!("{turns} turns"));
     let mut records = Vec::new();

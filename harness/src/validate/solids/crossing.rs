@@ -3,7 +3,7 @@
 use crate::{
     picture::{Chart, Curve, Mark, Measure},
     validate::{
-        Method, Outcome, Stand,
+        CaseContext, Method, Outcome,
         tank::{self, Tank, block, numbers, turn},
     },
 };
@@ -44,13 +44,13 @@ fn forces(tank: &mut Tank<'_>, steps: u64) -> anyhow::Result<Vec<DVec3>> {
 }
 
 /// Runs the cube in fluid that moves with it, and in fluid at rest.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     let scale = DVec3::from(VELOCITY).length_squared() * CUBE * CUBE;
     for (tau, turned) in [(0.52, false), (0.52, true), (1.0, true)] {
         let mut scene = cube([32, 24, 24], tau, VELOCITY, turned)?;
         scene.initial.velocity = numbers(VELOCITY);
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         let found = forces(&mut tank, STEPS)?;
         let mean = found.iter().sum::<DVec3>().length() / found.len() as f64;
         let most = found.iter().map(|f| f.length()).fold(0.0, f64::max);
@@ -63,7 +63,7 @@ pub fn run(stand: &Stand) -> Outcome {
     for turned in [false, true] {
         // A path of 8 cells, the last four of which count.
         let scene = cube([48, 24, 24], 0.6, [0.04, 0.0, 0.0], turned)?;
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         tank.advance(STEPS)?;
         let found = forces(&mut tank, STEPS)?;
         let trial = tank.trial("through fluid at rest");
@@ -89,8 +89,8 @@ const COUNTED: usize = 4;
 
 /// Fluctuation of the drag of a cube as its faces cross cells, over resolution and relaxation time. The cube moves along the grid
 /// through fluid at rest: its front covers whole layers of cells at once, which is the worst case.
-pub fn swing(stand: &Stand) -> Outcome {
-    let sizes: &[u32] = match (stand.full, stand.software) {
+pub fn swing(context: &CaseContext) -> Outcome {
+    let sizes: &[u32] = match (context.full, context.software) {
         (true, false) => &[5, 10, 20, 40],
         (true, true) => &[5, 10, 20],
         (false, _) => &[5, 10],
@@ -113,7 +113,7 @@ pub fn swing(stand: &Stand) -> Outcome {
             // Forces of single steps: the load on a block is the mean of two.
             scene.coupling.average = false;
             method.choose(&mut scene);
-            let mut tank = Tank::fill(stand, &scene)?;
+            let mut tank = Tank::fill(context, &scene)?;
             tank.advance(ramp as u64 + BEFORE * CROSSING as u64)?;
             let mut drag = Vec::new();
             for _ in 0..COUNTED * CROSSING + 1 {
@@ -152,7 +152,7 @@ pub fn swing(stand: &Stand) -> Outcome {
         Measure::linear("swing / mean drag", "%"),
         curves,
     );
-    stand.draw("solids_spike", &chart)?;
+    context.draw("solids_spike", &chart)?;
     let heads = [
         "edge",
         "tau",
@@ -160,6 +160,6 @@ pub fn swing(stand: &Stand) -> Outcome {
         "jump_percent",
         "swing_percent",
     ];
-    stand.write_table("solids_spike", heads, &table)?;
+    context.write_table("solids_spike", heads, &table)?;
     Ok(records)
 }

@@ -4,7 +4,7 @@ use super::{
     array::{Array, USUAL},
     periodic_flow::{Body, PeriodicFlow, static_solids},
 };
-use crate::validate::{Method, Outcome, Stand, tank};
+use crate::validate::{CaseContext, Method, Outcome, tank};
 use glam::DVec3;
 use riprap::{
     geometry::Polyhedron,
@@ -25,27 +25,27 @@ const CUBES: f64 = 60.8;
 const TURNS: [u32; 3] = [1, 2, 3];
 
 /// Cubes of 8 cells and a polyhedron of 10, with either weight; with `--full` also of 16 and 20.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
-    let edges: &[u32] = if stand.full { &[16, 32] } else { &[16] };
-    let taus: &[f64] = match stand.full {
+    let edges: &[u32] = if context.full { &[16, 32] } else { &[16] };
+    let taus: &[f64] = match context.full {
         true => &[0.52, 0.6, 1.0, 1.5],
         false => &[0.6, 1.0],
     };
     for &edge in edges {
         for &tau in taus {
-            if edge > 16 && stand.software && tau < 1.0 {
+            if edge > 16 && context.software && tau < 1.0 {
                 continue;
             }
             for method in [Method::DEFAULT, Method::STANDARD_WEIGHT] {
-                records.extend(of(stand, edge, tau, method)?);
+                records.extend(of(context, edge, tau, method)?);
             }
         }
     }
     Ok(records)
 }
 
-fn of(stand: &Stand, edge: u32, tau: f64, method: Method) -> Outcome {
+fn of(context: &CaseContext, edge: u32, tau: f64, method: Method) -> Outcome {
     let mut records = Vec::new();
     let size = 0.5 * f64::from(edge);
     let flow = |body| PeriodicFlow {
@@ -57,7 +57,7 @@ fn of(stand: &Stand, edge: u32, tau: f64, method: Method) -> Outcome {
         expected: CUBES * size,
     };
     let name = |what: &str| format!("{what}, D = {size}, τ = {tau}, {}", method.name);
-    let cells = flow(Body::Cells(cells(edge)?)).measure(stand, "solid cells")?;
+    let cells = flow(Body::Cells(cells(edge)?)).measure(context, "solid cells")?;
     let default = method.name == Method::DEFAULT.name;
     if default {
         let quantity = format!("F / F(grid → 0), solid cells, D = {size}, τ = {tau}");
@@ -68,7 +68,7 @@ fn of(stand: &Stand, edge: u32, tau: f64, method: Method) -> Outcome {
     let (mut least, mut most) = (f64::INFINITY, 0f64);
     for offset in OFFSETS {
         let body = Body::Block(cube.clone(), offset, Rotation::default());
-        let drag = flow(body).measure(stand, "cubes along the grid")?;
+        let drag = flow(body).measure(context, "cubes along the grid")?;
         (least, most) = (least.min(drag.resistance), most.max(drag.resistance));
         let quantity = name(&format!("F / F(solid cells), off by {offset:?}"));
         let ratio = drag.resistance / cells.resistance;
@@ -82,13 +82,13 @@ fn of(stand: &Stand, edge: u32, tau: f64, method: Method) -> Outcome {
     });
     for turn in TURNS {
         let body = Body::Block(cube.clone(), OFFSETS[3], tank::turn(turn));
-        let drag = flow(body).measure(stand, "turned cubes")?;
+        let drag = flow(body).measure(context, "turned cubes")?;
         let quantity = name(&format!("F/μUD, turn {turn}"));
         records.push(drag.trial.report(quantity, drag.resistance / size));
     }
     let polyhedron = flow(Body::Block(polyhedron(edge)?, OFFSETS[3], tank::turn(2)));
     let sphere = Array::new(USUAL, edge, tau).resistance();
-    let drag = polyhedron.measure(stand, "polyhedra of 80 faces")?;
+    let drag = polyhedron.measure(context, "polyhedra of 80 faces")?;
     let quantity = name("F / F of a sphere of the same volume, 80 faces");
     let ratio = drag.resistance / sphere;
     records.push(drag.trial.relative(quantity, ratio, 1.0, None));

@@ -1,7 +1,7 @@
 //! A cylinder in a channel, Reynolds number 20: the steady plane flow 2D-1 of Schäfer & Turek (1996).
 
 use crate::validate::{
-    Outcome, Stand,
+    CaseContext, Outcome,
     tank::{self, Tank, block, numbers},
 };
 use riprap::{
@@ -27,9 +27,9 @@ const LAYERS: u32 = 4;
 const SETTLE: f64 = 16.0;
 
 /// Drag on a grid of 10 cells per diameter, in the full form also of 20: the error falls to first order at best.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
-    let grids: &[(u32, f64)] = match stand.full {
+    let grids: &[(u32, f64)] = match context.full {
         true => &[(10, 0.07), (20, 0.04)],
         false => &[(10, 0.07)],
     };
@@ -65,7 +65,7 @@ pub fn run(stand: &Stand) -> Outcome {
             .push(block(prism(0.5 * cells, extent[2]), at, Motion::Driven));
         let steps = (SETTLE * cells / mean) as u64;
         scene.coupling.interval = (steps / 8) as u32;
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         tank.advance(steps / 8 * 8)?;
         let force = tank.load(0).flow.force.x / extent[2];
         let drag = force / (0.5 * mean * mean * cells);

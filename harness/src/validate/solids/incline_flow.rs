@@ -17,7 +17,7 @@
 
 use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{
-    Outcome, Record, Stand, Trial, fields,
+    CaseContext, Outcome, Record, Trial, fields,
     tank::{Tank, block},
 };
 use riprap::scene::{
@@ -53,7 +53,7 @@ struct History {
 }
 
 /// Runs all grids, compares them, and extrapolates to zero cell size.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     let mut curves: Vec<Curve> = Vec::new();
     let mut starts = Vec::new();
@@ -64,7 +64,7 @@ pub fn run(stand: &Stand) -> Outcome {
         let depth = scene.domain.size[2];
         push = ADDED_MASS * scene.fluid.density * EDGE.powi(3) * scene.rock.gravity[0];
         lay_bed(&mut scene);
-        let history = measure(stand, &scene, depth)?;
+        let history = measure(context, &scene, depth)?;
         records.extend(history.records);
         starts.push(history.start);
         curves.push(Curve {
@@ -98,24 +98,24 @@ pub fn run(stand: &Stand) -> Outcome {
         let quantity = "drag at the start, by a line through the grids where cells end, N";
         records.push(trial.relative(quantity, without_cells, push, 5e-2));
     }
-    records.extend(without_wall_model(stand)?);
+    records.extend(without_wall_model(context)?);
     let chart = Chart::profile(
         "Drag on a cube held in water that starts down a slope of 30°",
         Measure::linear("time", "s"),
         Measure::linear("force along the slope", "N"),
         curves,
     );
-    stand.draw("solids_incline_flow", &chart)?;
+    context.draw("solids_incline_flow", &chart)?;
     Ok(records)
 }
 
 /// Loads on bed and cube without the wall model, on the grid of the scene.
-fn without_wall_model(stand: &Stand) -> Outcome {
+fn without_wall_model(context: &CaseContext) -> Outcome {
     let mut scene = Scene::from_toml(SCENE, Path::new("."), "incline_flow.toml")?;
     scene.numerics.wall_model = WallModel::None;
     let depth = scene.domain.size[2];
     lay_bed(&mut scene);
-    let mut records = measure(stand, &scene, depth)?.records;
+    let mut records = measure(context, &scene, depth)?.records;
     for record in &mut records {
         record.quantity += ", no wall model";
     }
@@ -151,8 +151,8 @@ fn lay_bed(scene: &mut Scene) {
 }
 
 /// Runs the scene, with water of depth `depth` (m).
-fn measure(stand: &Stand, scene: &Scene, depth: f64) -> anyhow::Result<History> {
-    let mut tank = Tank::fill(stand, scene)?;
+fn measure(context: &CaseContext, scene: &Scene, depth: f64) -> anyhow::Result<History> {
+    let mut tank = Tank::fill(context, scene)?;
     let units = *tank.units();
     let slope = scene.rock.gravity[0];
     let begin = tank.totals()?.momentum[0];

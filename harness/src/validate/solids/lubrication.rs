@@ -1,7 +1,7 @@
 //! Blocks that approach a wall: the force that the grid resolves in the gap, and the lubrication force added to it.
 
 use crate::validate::{
-    Outcome, Stand, Trial,
+    CaseContext, Outcome, Trial,
     tank::{self, Tank, block, numbers},
 };
 use glam::{DQuat, DVec3};
@@ -142,21 +142,21 @@ fn brenner(gap: f64) -> f64 {
 }
 
 /// Force on a driven block at several gaps over that of theory, from the grid alone and with the film.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     let mut runs = vec![
         (Body::Sphere, "sphere D 10", None),
         (Body::Cube, "cube of 12", None),
         (Body::Cube, "cube of 12 over a block", Some(0.4)),
     ];
-    if stand.full {
+    if context.full {
         runs.push((Body::Cube, "cube of 12 over a block, higher", Some(0.75)));
         runs.push((Body::Sphere, "sphere D 10 over a block", Some(0.4)));
     }
     for (body, name, within) in runs {
         let mut scene = body.scene(GAPS[0] + 0.5, Motion::Driven, within)?;
         scene.blocks[0].velocity = numbers([0.0, 0.0, -SPEED]);
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         for gap in GAPS {
             let middle = ((GAPS[0] + 0.5 - gap) / SPEED) as u64;
             tank.advance(middle - WINDOW / 2 - tank.simulation.step())?;
@@ -185,7 +185,7 @@ pub fn run(stand: &Stand) -> Outcome {
 }
 
 /// Time in which a free block sinks from a gap of a cell to a fifth of it, with lubrication and without, over that of theory.
-pub fn landing(stand: &Stand) -> Outcome {
+pub fn landing(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for (body, name) in [(Body::Sphere, "sphere D 10"), (Body::Cube, "cube of 12")] {
         let (from, to) = (1.0, 0.2);
@@ -200,7 +200,7 @@ pub fn landing(stand: &Stand) -> Outcome {
             scene.materials[0].density = 2.0;
             scene.rock.gravity = [0.0, 0.0, -weight / volume];
             scene.coupling.lubrication = lubrication;
-            let mut tank = Tank::fill(stand, &scene)?;
+            let mut tank = Tank::fill(context, &scene)?;
             let mut times = [f64::NAN; 2];
             let mut before = 1.5;
             let expected = sinking(body, weight, from, to);

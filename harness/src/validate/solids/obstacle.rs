@@ -4,7 +4,7 @@
 //! reference is an unbounded stream, so that the body takes up less than 1 % of the section.
 
 use crate::validate::{
-    Method, Outcome, Stand, Trial,
+    CaseContext, Method, Outcome, Trial,
     tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, Boundary, Motion};
@@ -15,13 +15,13 @@ const SPEED: f64 = 0.05;
 const MEAN: f64 = 4.0;
 
 /// Sphere, against body-fitted computations in an unbounded stream.
-pub fn sphere(stand: &Stand) -> Outcome {
+pub fn sphere(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
-    for (size, limit) in grids(stand) {
+    for (size, limit) in grids(context) {
         for (reynolds, published) in [(20.0, 2.71), (100.0, 1.087)] {
             let edge = f64::from(size);
             let shape = BlockShape::Sphere { radius: 0.5 * edge };
-            let drag = WIDE.drag(stand, shape, (size, edge / reynolds), Method::DEFAULT)?;
+            let drag = WIDE.drag(context, shape, (size, edge / reynolds), Method::DEFAULT)?;
             let coefficient = drag.coefficient / (0.25 * PI * edge * edge);
             let quantity = format!("C_d / published, sphere, Re {reynolds}, D = {size}");
             let ratio = coefficient / published;
@@ -32,7 +32,7 @@ pub fn sphere(stand: &Stand) -> Outcome {
 }
 
 /// Cube with a face across the stream, against the correlation of Hölzer & Sommerfeld (2008), eq. 9.
-pub fn cube(stand: &Stand) -> Outcome {
+pub fn cube(context: &CaseContext) -> Outcome {
     // Diameter, section and surface of the sphere of the same volume, over those of the cube.
     let diameter = (6.0 / PI).cbrt();
     let across = 0.25 * PI * diameter * diameter;
@@ -40,7 +40,7 @@ pub fn cube(stand: &Stand) -> Outcome {
     // Section over half the surface less the mean section along the stream.
     let lengthwise = across / (3.0 - 1.0);
     let mut records = Vec::new();
-    for (size, limit) in grids(stand) {
+    for (size, limit) in grids(context) {
         for reynolds in [20.0f64, 100.0] {
             let published = 8.0 / (reynolds * lengthwise.sqrt())
                 + 16.0 / (reynolds * sphericity.sqrt())
@@ -49,7 +49,7 @@ pub fn cube(stand: &Stand) -> Outcome {
             let edge = f64::from(size);
             let shape = BlockShape::Box { size: [edge; 3] };
             let scale = diameter * edge / reynolds;
-            let drag = WIDE.drag(stand, shape, (size, scale), Method::DEFAULT)?;
+            let drag = WIDE.drag(context, shape, (size, scale), Method::DEFAULT)?;
             let coefficient = drag.coefficient / (across * edge * edge);
             let quantity = format!("C_d / correlation, cube, Re {reynolds}, L = {size}");
             let ratio = coefficient / published;
@@ -60,8 +60,8 @@ pub fn cube(stand: &Stand) -> Outcome {
 }
 
 /// Cells across the body, and the limit on the error of the drag. The finer grid takes half an hour per stream on two cores.
-fn grids(stand: &Stand) -> Vec<(u32, f64)> {
-    match stand.software && !stand.full {
+fn grids(context: &CaseContext) -> Vec<(u32, f64)> {
+    match context.software && !context.full {
         true => vec![(12, 0.12)],
         false => vec![(12, 0.12), (24, 0.05)],
     }
@@ -111,10 +111,15 @@ pub struct Drag {
 ///
 /// # Errors
 /// If the flow leaves the range of the method, or the device is lost or silent.
-pub fn cube_on(stand: &Stand, size: u32, reynolds: f64, method: Method) -> anyhow::Result<Drag> {
+pub fn cube_on(
+    context: &CaseContext,
+    size: u32,
+    reynolds: f64,
+    method: Method,
+) -> anyhow::Result<Drag> {
     let edge = f64::from(size);
     let shape = BlockShape::Box { size: [edge; 3] };
-    let mut drag = NARROW.drag(stand, shape, (size, edge / reynolds), method)?;
+    let mut drag = NARROW.drag(context, shape, (size, edge / reynolds), method)?;
     drag.coefficient /= edge * edge;
     Ok(drag)
 }
@@ -123,7 +128,7 @@ impl Stream {
     /// Drag on the whole body with the viscosity `SPEED` × `scale`; the coefficient is for a section of one cell.
     fn drag(
         &self,
-        stand: &Stand,
+        context: &CaseContext,
         shape: BlockShape,
         (size, scale): (u32, f64),
         method: Method,
@@ -151,7 +156,7 @@ impl Stream {
         let every = steps(MEAN) / READINGS;
         scene.coupling.interval = every as u32;
         method.choose(&mut scene);
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         tank.advance(steps(self.settle) / every * every)?;
         let mut sum = 0.0;
         for _ in 0..READINGS {

@@ -1,7 +1,7 @@
 //! Slow steady flow through a simple cubic array of a body.
 
 use crate::validate::{
-    Method, Stand, Trial,
+    CaseContext, Method, Trial,
     tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, Motion, Rotation, Scene, Solid};
@@ -62,7 +62,7 @@ impl PeriodicFlow {
     ///
     /// # Errors
     /// If the flow does not become steady, or leaves the range of the method.
-    pub fn measure(&self, stand: &Stand, name: &str) -> anyhow::Result<Drag> {
+    pub fn measure(&self, context: &CaseContext, name: &str) -> anyhow::Result<Drag> {
         let nu = (self.tau - 0.5) / 3.0;
         let volume = f64::from(self.edge).powi(3);
         let speed = REYNOLDS * nu / self.size;
@@ -87,7 +87,7 @@ impl PeriodicFlow {
         let time = (1.0 / rates[0].min(rates[1])).ceil();
         // The force is the mean over one such time.
         scene.coupling.interval = time as u32;
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         let mut flux = f64::NAN;
         for times in 1.. {
             // The populations reflected by cells inside a body alternate with a period of two steps. Without the half force: in

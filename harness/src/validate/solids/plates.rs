@@ -1,7 +1,7 @@
 //! Poiseuille and Couette flow between plates that are blocks: positions of their surfaces.
 
 use crate::validate::{
-    Method, Outcome, Record, Stand, Trial,
+    CaseContext, Method, Outcome, Record, Trial,
     tank::{self, Tank, block, numbers},
 };
 use anyhow::Context;
@@ -20,17 +20,17 @@ const LEAST: f64 = 1000.0;
 const SPEED: f64 = 0.01;
 
 /// Outward offset of the surfaces, and flow through joints of a few cells.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for (gap, limit) in [(8, 0.03), (32, 0.01)] {
         // The time to steady flow grows as the square of the gap.
-        let taus: &[f64] = match gap > 8 && stand.software {
+        let taus: &[f64] = match gap > 8 && context.software {
             true => &[0.6, 1.0],
             false => &[0.52, 0.6, 1.0, 1.5],
         };
         for &tau in taus {
             for offset in OFFSETS {
-                let flow = Flow::measure(stand, gap, tau, offset)?;
+                let flow = Flow::measure(context, gap, tau, offset)?;
                 let quantity = format!(
                     "surface {offset} off the grid lies outside by, cells, τ = {tau}, gap of {gap}"
                 );
@@ -40,7 +40,7 @@ pub fn run(stand: &Stand) -> Outcome {
     }
     for gap in [1, 2, 3, 6] {
         for tau in [0.52, 0.6, 1.0] {
-            let flow = Flow::measure(stand, gap, tau, 0.0)?;
+            let flow = Flow::measure(context, gap, tau, 0.0)?;
             let quantity = format!("flow / Poiseuille's, {gap} cells, τ = {tau}");
             records.push(flow.trial.relative(quantity, flow.carried, 1.0, None));
         }
@@ -59,7 +59,7 @@ struct Flow {
 
 impl Flow {
     /// Measures the flow through a gap of `gap` cells, with the plate's middle off the grid by `offset`.
-    fn measure(stand: &Stand, gap: u32, tau: f64, offset: f64) -> anyhow::Result<Self> {
+    fn measure(context: &CaseContext, gap: u32, tau: f64, offset: f64) -> anyhow::Result<Self> {
         let height = gap + THICK;
         let nu = (tau - 0.5) / 3.0;
         let width = f64::from(gap);
@@ -71,7 +71,7 @@ impl Flow {
         let plate = BlockShape::Box { size };
         scene.blocks.push(block(plate, middle, Motion::Fixed));
         Method::DEFAULT.choose(&mut scene);
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         // Eight times in which the slowest mode falls to a third; reflected populations alternate with periods of two and four
         // steps.
         let time = (8.0 * width * width / (nu * 9.87)).max(LEAST);
@@ -103,15 +103,15 @@ impl Flow {
 }
 
 /// Positions of the surfaces of plates: along the grid by the friction on them, across the grid by the flux between them.
-pub fn places(stand: &Stand) -> Outcome {
+pub fn places(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
-    let taus: &[f64] = match stand.full {
+    let taus: &[f64] = match context.full {
         true => &[0.52, 0.6, 1.0, 1.5],
         false => &[0.6, 1.0],
     };
     for &tau in taus {
         for offset in OFFSETS {
-            records.push(shear(stand, tau, offset)?);
+            records.push(shear(context, tau, offset)?);
         }
         for (normal, thick, limit) in [([2, 1], 5.0, 0.03), ([1, 1], 6.0, 0.06)] {
             for along_z in [true, false] {
@@ -121,7 +121,7 @@ pub fn places(stand: &Stand) -> Outcome {
                     tau,
                     along_z,
                 };
-                records.push(slope.measure(stand, limit)?);
+                records.push(slope.measure(context, limit)?);
             }
         }
     }
@@ -129,7 +129,7 @@ pub fn places(stand: &Stand) -> Outcome {
 }
 
 /// Couette flow between plates along the grid, one at rest and one moving in its plane.
-fn shear(stand: &Stand, tau: f64, offset: f64) -> anyhow::Result<Record> {
+fn shear(context: &CaseContext, tau: f64, offset: f64) -> anyhow::Result<Record> {
     const GAP: u32 = 12;
     let nu = (tau - 0.5) / 3.0;
     let [gap, thick, wide] = [GAP, THICK, WIDE].map(f64::from);
@@ -147,7 +147,7 @@ fn shear(stand: &Stand, tau: f64, offset: f64) -> anyhow::Result<Record> {
     // The slowest initial mode falls to 1e-4; then the load is averaged.
     let tenth = (gap * gap / (nu * 9.87)).max(0.1 * LEAST) as u64;
     scene.coupling.interval = tenth as u32;
-    let mut tank = Tank::fill(stand, &scene)?;
+    let mut tank = Tank::fill(context, &scene)?;
     tank.advance(11 * tenth)?;
     let apparent = -2.0 * nu * SPEED * wide * wide / tank.load(1).flow.force.x;
     let quantity =
@@ -170,7 +170,7 @@ struct Slope {
 }
 
 impl Slope {
-    fn measure(&self, stand: &Stand, limit: f64) -> anyhow::Result<Record> {
+    fn measure(&self, context: &CaseContext, limit: f64) -> anyhow::Result<Record> {
         let nu = (self.tau - 0.5) / 3.0;
         let period = f64::from(PERIOD);
         let [a, b] = self.normal.map(f64::from);
@@ -196,7 +196,7 @@ impl Slope {
             };
             scene.blocks.push(plate);
         }
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         tank.advance((10.0 * gap * gap / (nu * 9.87)).max(LEAST) as u64)?;
         let mut sum = DVec3::ZERO;
         for _ in 0..4 {

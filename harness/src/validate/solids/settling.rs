@@ -6,7 +6,7 @@
 //! where inertia hardly matters, is a second reference for it.
 
 use crate::picture::{Chart, Curve, Mark, Measure};
-use crate::validate::{Method, Outcome, Record, Stand, Trial, tank::Tank};
+use crate::validate::{CaseContext, Method, Outcome, Record, Trial, tank::Tank};
 use riprap::scene::Scene;
 use std::path::Path;
 
@@ -93,7 +93,7 @@ impl Oil {
     /// If the flow leaves the range of the method, or the device is lost or silent.
     pub fn fall(
         &self,
-        stand: &Stand,
+        context: &CaseContext,
         (cells, speed): (u32, f64),
         time: f64,
         method: Method,
@@ -129,7 +129,7 @@ impl Oil {
         );
         let mut scene = Scene::from_toml(&text, Path::new("."), self.name)?;
         method.choose(&mut scene);
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         let every = (time / time_step / SAMPLES) as u64;
         let (mut gap, mut fastest) = (Vec::new(), 0.0f64);
         while tank.simulation.time() < time {
@@ -153,8 +153,8 @@ impl Oil {
 pub const E1_FASTEST: f64 = 1.4;
 
 /// Velocity without inertia, with `cells` along the edge of the floor.
-fn creeping(stand: &Stand, cells: u32) -> anyhow::Result<Record> {
-    let fall = CREEPING.fall(stand, (cells, SPEED), CREEPING.time, Method::DEFAULT)?;
+fn creeping(context: &CaseContext, cells: u32) -> anyhow::Result<Record> {
+    let fall = CREEPING.fall(context, (cells, SPEED), CREEPING.time, Method::DEFAULT)?;
     let ratio = fall.fastest / creeping_velocity();
     let across = f64::from(cells) * 2.0 * RADIUS / EDGE;
     let quantity = format!("largest velocity / Stokes' law between walls, D = {across:.0}");
@@ -162,8 +162,8 @@ fn creeping(stand: &Stand, cells: u32) -> anyhow::Result<Record> {
 }
 
 /// The slow experiment until its largest velocity, with 6 cells across the sphere.
-pub fn short(stand: &Stand) -> Outcome {
-    let fall = E1.fall(stand, (40, SPEED), E1_FASTEST, Method::DEFAULT)?;
+pub fn short(context: &CaseContext) -> Outcome {
+    let fall = E1.fall(context, (40, SPEED), E1_FASTEST, Method::DEFAULT)?;
     let ratio = fall.fastest / E1.fastest;
     let quantity = "largest velocity / measured, E1, D = 6";
     Ok(vec![fall.trial.relative(quantity, ratio, 1.0, 2e-2)])
@@ -181,16 +181,16 @@ fn creeping_velocity() -> f64 {
 }
 
 /// Both experiments on three grids, with 9, 12 and 18 cells across the sphere, and the slow one without inertia.
-pub fn whole(stand: &Stand) -> Outcome {
+pub fn whole(context: &CaseContext) -> Outcome {
     let grids = [60, 80, 120];
     let (mut records, mut curves) = (Vec::new(), Vec::new());
     for cells in [60, 80] {
-        records.push(creeping(stand, cells)?);
+        records.push(creeping(context, cells)?);
     }
     for (oil, speed) in [(E1, 0.02), (E4, 0.03)] {
         let mut before: Option<Fall> = None;
         for cells in grids {
-            let fall = oil.fall(stand, (cells, speed), oil.time, Method::DEFAULT)?;
+            let fall = oil.fall(context, (cells, speed), oil.time, Method::DEFAULT)?;
             let name = format!("{}, D = {}", oil.name, f64::from(cells) * 0.15);
             let ratio = fall.fastest / oil.fastest;
             let quantity = format!("largest velocity / measured, {name}");
@@ -215,7 +215,7 @@ pub fn whole(stand: &Stand) -> Outcome {
         Measure::linear("height above the floor", "m"),
         curves,
     );
-    stand.draw("solids_settling", &chart)?;
+    context.draw("solids_settling", &chart)?;
     Ok(records)
 }
 

@@ -1,7 +1,7 @@
 //! A sphere in fluid at rest: released, and rotating.
 
 use crate::validate::{
-    Outcome, Stand,
+    CaseContext, Outcome,
     tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, Motion};
@@ -23,9 +23,9 @@ const BETWEEN: [f64; 2] = [3.0, 4.5];
 /// reference is the solution with both effects, which is exact for a small sphere in a wide tank.
 ///
 /// Spheres of ρₛ/ρ = 1.5 and 2.65.
-pub fn release(stand: &Stand) -> Outcome {
+pub fn release(context: &CaseContext) -> Outcome {
     let mut runs = vec![(1.5, 8.0, 0.505), (2.65, 8.0, 0.505)];
-    if stand.full {
+    if context.full {
         runs.extend([(1.5, 8.0, 0.6), (2.65, 8.0, 0.6), (1.5, 8.0, 0.5005)]);
         runs.extend([(1.5, 16.0, 0.505), (2.65, 16.0, 0.505)]);
     }
@@ -41,7 +41,7 @@ pub fn release(stand: &Stand) -> Outcome {
         let shape = BlockShape::Sphere { radius };
         let middle = [0.5 * edge; 3];
         scene.blocks.push(block(shape, middle, Motion::Free));
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         let mut speeds = [0.0; 3];
         for (speed, until) in speeds.iter_mut().zip([1, steps[0], steps[1]]) {
             tank.advance(until - tank.simulation.step())?;
@@ -113,9 +113,9 @@ const REYNOLDS: f64 = 0.3;
 
 /// Torque on a sphere that rotates in a viscous fluid: 8πμr³ω/(1 − c) in a dilute periodic array. Spheres of 8 cells in 24³, and
 /// with `--full` of 16 in 48³.
-pub fn rotation(stand: &Stand) -> Outcome {
+pub fn rotation(context: &CaseContext) -> Outcome {
     let mut runs = vec![(4.0, 24, 0.6, 3e-2), (4.0, 24, 1.0, 3e-2)];
-    if stand.full {
+    if context.full {
         runs.extend([(8.0, 48, 0.6, 1e-2), (8.0, 48, 1.0, 1e-2)]);
     }
     let mut records = Vec::new();
@@ -131,7 +131,7 @@ pub fn rotation(stand: &Stand) -> Outcome {
         // The slowest mode of the box, which hardly affects the torque, has decayed to 0.2 %.
         let steps = (6.0 / (nu * (TAU / length).powi(2))) as u64;
         scene.coupling.interval = (steps / 8) as u32;
-        let mut tank = Tank::fill(stand, &scene)?;
+        let mut tank = Tank::fill(context, &scene)?;
         tank.advance(8 * u64::from(scene.coupling.interval))?;
         let concentration = 4.0 / 3.0 * PI * (radius / length).powi(3);
         let exact = -8.0 * PI * nu * radius.powi(3) * omega / (1.0 - concentration);

@@ -1,7 +1,7 @@
 //! Buoyancy of boxes in still water.
 
 use crate::validate::{
-    Outcome, Stand, Trial,
+    CaseContext, Outcome, Trial,
     tank::{self, GRAVITY, Tank},
 };
 use riprap::scene::Scheme;
@@ -18,7 +18,7 @@ pub const MIDDLE: f64 = 0.5 * DEPTH;
 
 /// Buoyancy and horizontal force, over ρVg, on a box held under water at the height `z` (m) and rotated by `angle` (degrees).
 pub fn held(
-    stand: &Stand,
+    context: &CaseContext,
     (z, angle): (f64, f64),
     scheme: Scheme,
 ) -> anyhow::Result<(Trial, [f64; 2])> {
@@ -40,7 +40,7 @@ pub fn held(
     );
     let mut scene = tank::pool([LENGTH, 1.5 * DEPTH], SPACING, [LENGTH, DEPTH], &more)?;
     tank::choose(&mut scene, scheme);
-    let mut pool = Tank::fill(stand, &scene)?;
+    let mut pool = Tank::fill(context, &scene)?;
     pool.advance_to(3.0)?;
     let mut force = glam::DVec3::ZERO;
     for look in 1..=LOOKS {
@@ -56,15 +56,15 @@ pub fn held(
 
 /// Archimedes' law for a box under water, along the lattice and oblique to it, and on the floor, where it holds for the pressure
 /// that closed joints transmit.
-pub fn submerged(stand: &Stand) -> Outcome {
+pub fn submerged(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for angle in [0.0, 30.0] {
-        let (trial, [up, across]) = held(stand, (MIDDLE, angle), Scheme::Delta)?;
+        let (trial, [up, across]) = held(context, (MIDDLE, angle), Scheme::Delta)?;
         let what = format!("turned by {angle}°");
         records.push(trial.relative(format!("push / ρVg, {what}"), up, 1.0, 0.01));
         records.push(trial.at_most(format!("push across / ρVg, {what}"), across.abs(), 0.01));
     }
-    let (trial, [up, _]) = held(stand, (0.5 * EDGE, 0.0), Scheme::Delta)?;
+    let (trial, [up, _]) = held(context, (0.5 * EDGE, 0.0), Scheme::Delta)?;
     records.push(trial.relative("push / ρVg, on the floor", up, 1.0, 0.05));
     Ok(records)
 }
@@ -75,7 +75,7 @@ const GAPS: [f64; 4] = [0.0, 0.75, 1.4, 2.0];
 /// Archimedes' law for a box above another one with flush sides, at gaps in which the water exerts only a part of its pressure.
 /// The error is relative to the full pressure on the base: without a joint model all of it would be missing at the first gap;
 /// with a joint model that ignored the water in the gap it would count twice at the third.
-pub fn stacked(stand: &Stand) -> Outcome {
+pub fn stacked(context: &CaseContext) -> Outcome {
     let (under, mut records) = (6.0 * SPACING, Vec::new());
     for gap in GAPS {
         let base = under + gap * SPACING;
@@ -99,7 +99,7 @@ pub fn stacked(stand: &Stand) -> Outcome {
         });
         let size = [LENGTH, 1.5 * DEPTH];
         let scene = tank::pool(size, SPACING, [LENGTH, DEPTH], &boxes.concat())?;
-        let mut pool = Tank::fill(stand, &scene)?;
+        let mut pool = Tank::fill(context, &scene)?;
         pool.advance_to(2.0)?;
         let mut up = 0.0;
         for look in 1..=LOOKS {
@@ -118,10 +118,10 @@ pub fn stacked(stand: &Stand) -> Outcome {
 
 /// Drafts of floating boxes, released a spacing too high, over the draft by Archimedes' law; the smaller box, of four spacings,
 /// only shows how the error grows.
-pub fn floating(stand: &Stand) -> Outcome {
+pub fn floating(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for layers in [12, 8] {
-        let (trial, draft, tilt) = float(stand, f64::from(layers) * SPACING)?;
+        let (trial, draft, tilt) = float(context, f64::from(layers) * SPACING)?;
         let name = format!("draft / exact, {} spacings", layers / 2);
         let limit = (layers == 12).then_some(0.01);
         records.push(trial.relative(name, draft, 1.0, limit));
@@ -131,7 +131,7 @@ pub fn floating(stand: &Stand) -> Outcome {
 }
 
 /// Draft over the exact one, and tilt (rad), of a box of the height `height` (m), half as heavy as water.
-fn float(stand: &Stand, height: f64) -> anyhow::Result<(Trial, f64, f64)> {
+fn float(context: &CaseContext, height: f64) -> anyhow::Result<(Trial, f64, f64)> {
     let (width, density) = (16.0 * SPACING, 500.0);
     let exact = density / 1000.0 * height;
     let start = exact - SPACING;
@@ -152,8 +152,8 @@ fn float(stand: &Stand, height: f64) -> anyhow::Result<(Trial, f64, f64)> {
         DEPTH - start + 0.5 * height
     );
     let scene = tank::pool([LENGTH, 2.0 * DEPTH], SPACING, [LENGTH, DEPTH], &more)?;
-    let mut pool = Tank::fill(stand, &scene)?;
-    let end = if stand.full { 20.0 } else { 8.0 };
+    let mut pool = Tank::fill(context, &scene)?;
+    let end = if context.full { 20.0 } else { 8.0 };
     pool.advance_to(end)?;
     let mut draft = 0.0;
     for look in 1..=LOOKS {

@@ -1,7 +1,7 @@
 //! Dam break (Martin & Moyce 1952): speed of the front over the dry floor.
 
 use crate::validate::{
-    Outcome, Stand, Trial,
+    CaseContext, Outcome, Trial,
     tank::{self, GRAVITY, Tank},
 };
 use riprap::scene::Scheme;
@@ -13,12 +13,16 @@ pub const SPEED: f64 = 1.37;
 const STRETCH: [f64; 2] = [1.8, 3.6];
 
 /// Speed dZ/dT of the front with Z = x/a and T = t √(2g/a), and the share of particles kept.
-pub fn front(stand: &Stand, columns: u32, scheme: Scheme) -> anyhow::Result<(Trial, [f64; 2])> {
+pub fn front(
+    context: &CaseContext,
+    columns: u32,
+    scheme: Scheme,
+) -> anyhow::Result<(Trial, [f64; 2])> {
     let spacing = WIDTH / f64::from(columns);
     let size = [5.0 * WIDTH, 3.0 * WIDTH];
     let mut scene = tank::pool(size, spacing, [WIDTH, 2.0 * WIDTH], "")?;
     tank::choose(&mut scene, scheme);
-    let mut pool = Tank::fill(stand, &scene)?;
+    let mut pool = Tank::fill(context, &scene)?;
     let unit = (WIDTH / (2.0 * GRAVITY)).sqrt();
     let (mut front, mut time) = (vec![1.0], vec![0.0]);
     while front[front.len() - 1] < 3.9 && time[time.len() - 1] < 6.0 {
@@ -39,11 +43,11 @@ pub fn front(stand: &Stand, columns: u32, scheme: Scheme) -> anyhow::Result<(Tri
 }
 
 /// The front of a dam break.
-pub fn run(stand: &Stand) -> Outcome {
-    let columns: &[u32] = if stand.full { &[20, 40] } else { &[20] };
+pub fn run(context: &CaseContext) -> Outcome {
+    let columns: &[u32] = if context.full { &[20, 40] } else { &[20] };
     let mut records = Vec::new();
     for &columns in columns {
-        let (trial, [speed, kept]) = front(stand, columns, Scheme::Delta)?;
+        let (trial, [speed, kept]) = front(context, columns, Scheme::Delta)?;
         let name = format!("dZ/dT of the front, a/Δx = {columns}");
         records.push(trial.relative(name, speed, SPEED, 0.08));
         records.push(trial.absolute("share of particles kept", kept, 1.0, 0.0));

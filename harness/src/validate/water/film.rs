@@ -1,6 +1,6 @@
 //! A film of viscous water that runs down an incline: u = g_x/ν (H z − z²/2).
 
-use crate::validate::{Outcome, Stand, tank::Tank};
+use crate::validate::{CaseContext, Outcome, tank::Tank};
 use anyhow::Result;
 use riprap::scene::Scene;
 use std::path::Path;
@@ -20,7 +20,7 @@ fn exact(z: f64) -> f64 {
 }
 
 /// The profile on ten layers of particles and on twenty.
-pub fn run(stand: &Stand) -> Outcome {
+pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     for (layers, limit) in [(10, None), (20, Some(0.01))] {
         let spacing = DEPTH / f64::from(layers);
@@ -45,7 +45,7 @@ pub fn run(stand: &Stand) -> Outcome {
         );
         let scene = Scene::from_toml(&text, Path::new("."), "film")?;
         scene.check()?;
-        let mut pool = Tank::fill(stand, &scene)?;
+        let mut pool = Tank::fill(context, &scene)?;
         let fading = 4.0 * DEPTH.powi(2) / (std::f64::consts::PI.powi(2) * VISCOSITY);
         pool.advance_to(FADINGS * fading)?;
         let miss = profile(&mut pool)?;

@@ -1,7 +1,7 @@
 //! Waves made by a piston and by a falling box.
 
 use crate::validate::{
-    Outcome, Stand,
+    CaseContext, Outcome,
     tank::{self, GRAVITY, Tank},
 };
 use std::f64::consts::PI;
@@ -28,7 +28,7 @@ fn wave_number(period: f64, depth: f64) -> f64 {
 }
 
 /// Height of the waves made by a piston, over its stroke: H/S = 2 (cosh 2kh − 1)/(sinh 2kh + 2kh) (Dean & Dalrymple 1991).
-pub fn piston(stand: &Stand) -> Outcome {
+pub fn piston(context: &CaseContext) -> Outcome {
     let layers = 20;
     let spacing = DEPTH / f64::from(layers);
     // The fastest waves run at √(gH): from the piston to the far wall and back to the gauge.
@@ -58,7 +58,7 @@ pub fn piston(stand: &Stand) -> Outcome {
         // Waves of a tenth of the depth are far slower than a fall through the depth.
         particles.largest_speed = Some((GRAVITY * DEPTH).sqrt());
     }
-    let mut pool = Tank::fill(stand, &scene)?;
+    let mut pool = Tank::fill(context, &scene)?;
     let gauge = thick + 0.5 * STROKE + GAUGE * DEPTH;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut lows, mut highs) = (Vec::new(), Vec::new());
@@ -109,7 +109,7 @@ const END: f64 = 2.9;
 /// A box that falls at the end of a channel (Scott Russell 1844, Monaghan & Kos 2000): the wave that leaves it is solitary and
 /// travels at c² = g (D + H) (Rayleigh 1876; waves half as high as the water is deep are 0.5 % slower). Checks speed and height
 /// of the wave between two gauges.
-pub fn solitary(stand: &Stand) -> Outcome {
+pub fn solitary(context: &CaseContext) -> Outcome {
     let spacing = 0.015;
     let [width, height] = BOX;
     let more = format!(
@@ -131,7 +131,7 @@ pub fn solitary(stand: &Stand) -> Outcome {
         CHANNEL_DEPTH - DIPPED + 0.5 * height
     );
     let scene = tank::pool([LENGTH, 0.72], spacing, [LENGTH, CHANNEL_DEPTH], &more)?;
-    let mut pool = Tank::fill(stand, &scene)?;
+    let mut pool = Tank::fill(context, &scene)?;
     let mut crests = [[f64::NEG_INFINITY, 0.0]; 2];
     let mut at = 0.0;
     while at < END {

@@ -4,7 +4,7 @@
 //! subtracted on the other.
 
 use crate::validate::{
-    Outcome, Record, Stand,
+    CaseContext, Outcome, Record,
     tank::{self, GRAVITY, Tank},
 };
 use riprap::scene::Scene;
@@ -45,16 +45,16 @@ fn exact(length: f64, [low, high]: [f64; 2], end: f64) -> f64 {
 }
 
 /// Mean pressures on the end walls: half the difference between the two.
-pub fn run(stand: &Stand) -> Outcome {
-    let layers: &[u32] = if stand.full { &[25, 50] } else { &[25] };
+pub fn run(context: &CaseContext) -> Outcome {
+    let layers: &[u32] = if context.full { &[25, 50] } else { &[25] };
     let mut records = Vec::new();
     for (layers, length) in layers
         .iter()
         .flat_map(|n| LENGTHS.map(|length| (*n, length)))
     {
-        records.extend(measure(stand, layers, length)?);
+        records.extend(measure(context, layers, length)?);
     }
-    records.extend(strike(stand)?);
+    records.extend(strike(context)?);
     Ok(records)
 }
 
@@ -85,11 +85,11 @@ fn impulse(pool: &Tank<'_>, name: &str, [side, _]: [&str; 2]) -> f64 {
     sensor.map_or(f64::NAN, |sensor| sensor.impulse)
 }
 
-fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record>> {
+fn measure(context: &CaseContext, layers: u32, length: f64) -> anyhow::Result<Vec<Record>> {
     let spacing = DEPTH / f64::from(layers);
     let mut scene = tank([length, 1.4 * DEPTH], spacing, length)?;
     scene.fluid.acceleration[0] = (-PUSH * GRAVITY).into();
-    let mut pool = Tank::fill(stand, &scene)?;
+    let mut pool = Tank::fill(context, &scene)?;
     let mut records = Vec::new();
     for passages in ENDS {
         pool.advance_to(passages * (DEPTH / GRAVITY).sqrt())?;
@@ -111,13 +111,13 @@ fn measure(stand: &Stand, layers: u32, length: f64) -> anyhow::Result<Vec<Record
 /// A block of water, four times as long as high, strikes a wall with its whole front. Reports the immediate impulse over that of
 /// incompressible water that the wall can hold back (Cooker & Peregrine 1995, J. Fluid Mech. 297:193), which equals that of a
 /// sudden push. Here walls only push, and the water bounces off: unlike the theory, and without a limit.
-fn strike(stand: &Stand) -> anyhow::Result<Vec<Record>> {
+fn strike(context: &CaseContext) -> anyhow::Result<Vec<Record>> {
     let (size, speed) = ([6.0 * DEPTH, 4.0 * DEPTH], 1.0);
     let mut scene = tank(size, DEPTH / 25.0, 4.0 * DEPTH)?;
     // Hardly any gravity: the start needs some.
     scene.fluid.acceleration[2] = (-1e-3).into();
     scene.water[0].velocity = [-speed, 0.0, 0.0];
-    let mut pool = Tank::fill(stand, &scene)?;
+    let mut pool = Tank::fill(context, &scene)?;
     // Sound crosses the depth six times; jets have hardly begun.
     pool.advance_to(0.05 * DEPTH / speed)?;
     let trial = pool.trial("struck");

@@ -1,7 +1,7 @@
 //! Water at rest under its weight: p = ρ g (H − z).
 
 use crate::validate::{
-    Outcome, Stand, Trial,
+    CaseContext, Outcome, Trial,
     tank::{self, GRAVITY, Tank},
 };
 use riprap::scene::Scheme;
@@ -26,11 +26,11 @@ pub struct Still {
 }
 
 /// Runs a tank `layers` spacings deep.
-pub fn measure(stand: &Stand, layers: u32, scheme: Scheme) -> anyhow::Result<Still> {
+pub fn measure(context: &CaseContext, layers: u32, scheme: Scheme) -> anyhow::Result<Still> {
     let spacing = DEPTH / f64::from(layers);
     let mut scene = tank::pool([DEPTH, 1.5 * DEPTH], spacing, [DEPTH; 2], "")?;
     tank::choose(&mut scene, scheme);
-    let mut pool = Tank::fill(stand, &scene)?;
+    let mut pool = Tank::fill(context, &scene)?;
     let wave = (GRAVITY * DEPTH).sqrt();
     let (mut bottom, mut miss, mut speed) = (0.0, 0.0, 0.0);
     for look in 0..=LOOKS {
@@ -69,15 +69,15 @@ pub fn measure(stand: &Stand, layers: u32, scheme: Scheme) -> anyhow::Result<Sti
 pub const BOTTOM: f64 = 1000.0 * GRAVITY * DEPTH;
 
 /// Hydrostatic pressure, and how still the water is.
-pub fn run(stand: &Stand) -> Outcome {
-    let layers: &[u32] = if stand.full {
+pub fn run(context: &CaseContext) -> Outcome {
+    let layers: &[u32] = if context.full {
         &[10, 20, 40, 80]
     } else {
         &[10, 20]
     };
     let mut records = Vec::new();
     for &layers in layers {
-        let found = measure(stand, layers, Scheme::Delta)?;
+        let found = measure(context, layers, Scheme::Delta)?;
         let trial = found.trial;
         let name = |what: &str| format!("{what}, H/Δx = {layers}");
         // The targets are those of twenty layers; coarser tanks show how the error falls.

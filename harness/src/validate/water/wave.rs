@@ -1,7 +1,7 @@
 //! A standing wave of small amplitude: ω² = g k tanh kH.
 
 use crate::validate::{
-    Outcome, Stand, Trial,
+    CaseContext, Outcome, Trial,
     tank::{self, GRAVITY},
 };
 use glam::DVec3;
@@ -37,14 +37,14 @@ fn flow(x: DVec3, k: f64, omega: f64) -> DVec3 {
 }
 
 /// Period and damping of the first mode of a tank.
-pub fn run(stand: &Stand) -> Outcome {
-    let layers: &[u32] = if stand.full { &[25, 50] } else { &[25] };
+pub fn run(context: &CaseContext) -> Outcome {
+    let layers: &[u32] = if context.full { &[25, 50] } else { &[25] };
     let mut records = Vec::new();
     for (layers, length) in layers
         .iter()
         .flat_map(|n| LENGTHS.map(|length| (*n, length)))
     {
-        let found = measure(stand, layers, length, Scheme::Delta)?;
+        let found = measure(context, layers, length, Scheme::Delta)?;
         let trial = found.trial;
         let name = |what: &str| format!("{what}, H/Δx = {layers}");
         records.push(trial.relative(name("period / exact"), found.period, 1.0, 0.01));
@@ -67,7 +67,12 @@ pub struct Wave {
 ///
 /// # Errors
 /// If the water leaves the range of the method or has no wave, or the device is lost or silent.
-pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyhow::Result<Wave> {
+pub fn measure(
+    context: &CaseContext,
+    layers: u32,
+    length: f64,
+    scheme: Scheme,
+) -> anyhow::Result<Wave> {
     let k = PI / length;
     let omega = (GRAVITY * k * (k * DEPTH).tanh()).sqrt();
     let period = 2.0 * PI / omega;
@@ -76,7 +81,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
     tank::choose(&mut scene, scheme);
     let blocks = block_setup(&scene)?;
     let (mut setup, start) = particle_setup(&scene, &blocks)?;
-    if stand.software {
+    if context.software {
         setup.neighbours = NeighbourSearch::Lists;
     }
     let amplitude = STEEPNESS * DEPTH;
@@ -85,7 +90,7 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
         .iter()
         .map(|x| amplitude * flow(*x, k, omega))
         .collect();
-    let (device, queue) = (&stand.device, &stand.queue);
+    let (device, queue) = (&context.device, &context.queue);
     let positions = &start.positions;
     let mut water = SphSolver::new(
         device,
@@ -109,8 +114,8 @@ pub fn measure(stand: &Stand, layers: u32, length: f64, scheme: Scheme) -> anyho
     for look in 0..(PERIODS * LOOKS) as usize {
         let watch = Stopwatch::start();
         let done = water.advance(device, queue, &poses, period / LOOKS);
-        stand.drive("a wave", done)??;
-        let now = stand.drive("reading particles", water.water(device, queue))??;
+        context.drive("a wave", done)??;
+        let now = context.drive("reading particles", water.water(device, queue))??;
         // Drivers compile during the first part.
         if look > 0 {
             stepping += watch.spent();

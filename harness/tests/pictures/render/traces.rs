@@ -2,12 +2,12 @@
 
 use glam::{DMat3, DVec3};
 use riprap::geometry::{Form, Polyhedron};
-use riprap::output::{Array, Image};
+use riprap::output::{Array, ImageData};
 use riprap_harness::picture::{Placed, traces};
 
 /// `velocity` (m/s) at the centres of cells of 0.1 m that fill the box of 4 m × 2 m × 2 m at the origin.
-fn image(velocity: impl Fn(DVec3) -> DVec3) -> Image {
-    let mut image = Image {
+fn image(velocity: impl Fn(DVec3) -> DVec3) -> ImageData {
+    let mut image = ImageData {
         origin: [0.0; 3],
         spacing: 0.1,
         cells: [40, 20, 20],

@@ -3,7 +3,7 @@
 use super::fixture::{Rgb, file, read, slice};
 use glam::{DMat3, DVec3};
 use riprap::geometry::{Form, Polyhedron};
-use riprap::output::{Array, Image};
+use riprap::output::{Array, ImageData};
 use riprap_harness::picture::{Palette, Placed, Plane, Quantity};
 use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -89,7 +89,7 @@ fn blocks_are_drawn_over_the_slice_and_their_cells_do_not_stretch_the_colours() 
             values.push(if inside(x, y) { 1e6 } else { x as f32 });
         }
     }
-    let image = Image {
+    let image = ImageData {
         origin: [0.0, 0.0, 0.7],
         spacing: 0.1,
         cells,

@@ -1,6 +1,6 @@
 //! Shared by tests of sections and charts: a file for a picture, its pixels, and numbered cells.
 
-use riprap::output::{Array, Image};
+use riprap::output::{Array, ImageData};
 use riprap_harness::picture::{Plane, Quantity, Slice};
 use std::fs::File;
 use std::io::BufReader;
@@ -41,10 +41,10 @@ pub fn slice<'a>(quantity: Quantity<'a>, normal: usize, position: f64) -> Slice<
 }
 
 /// 4 × 2 × 3 cells of 0.5 m whose pressure is their index; the last cell of each row is solid.
-pub fn counting() -> Image {
+pub fn counting() -> ImageData {
     let cells = [4, 2, 3];
     let count = cells.iter().product::<usize>();
-    Image {
+    ImageData {
         origin: [0.0; 3],
         spacing: 0.5,
         cells,

@@ -1,7 +1,7 @@
 //! Colour maps.
 
 use super::fixture::{Rgb, counting, file, read, slice};
-use riprap::output::{Array, Image};
+use riprap::output::{Array, ImageData};
 use riprap_harness::picture::{Palette, Plane, Quantity, Section};
 
 #[test]
@@ -83,7 +83,7 @@ fn pictures_have_the_width_of_a_page_unless_the_domain_is_high() {
         .draw(&counting(), &path)
         .expect("a picture");
     assert_eq!(read(&path).0, 1400);
-    let flat = Image {
+    let flat = ImageData {
         cells: [24, 1, 1],
         ..counting()
     };
@@ -91,7 +91,7 @@ fn pictures_have_the_width_of_a_page_unless_the_domain_is_high() {
         .draw(&flat, &path)
         .expect("a picture");
     assert_eq!(read(&path).0, 1400);
-    let high = Image {
+    let high = ImageData {
         cells: [1, 24, 1],
         ..counting()
     };

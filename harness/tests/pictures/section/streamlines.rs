@@ -1,6 +1,6 @@
 //! Streamlines follow the flow, are evenly spaced, and stay in the fluid.
 
-use riprap::output::{Array, Image};
+use riprap::output::{Array, ImageData};
 use riprap_harness::picture::{Plane, Quantity, Section, streamlines};
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ fn vortices(cells: usize) -> Section {
             ));
         }
     }
-    let image = Image {
+    let image = ImageData {
         origin: [0.0; 3],
         spacing,
         cells: [cells, cells, 1],

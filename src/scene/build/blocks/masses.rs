@@ -1,7 +1,7 @@
 //! Rock masses, cut into blocks.
 
 use super::{
-    LeftOut,
+    DiscardedPieces,
     rows::symmetric,
     shapes::{closed_mesh, half_spaces},
     solids::holds,
@@ -19,7 +19,7 @@ pub(super) fn blocks(
     scene: &Scene,
     index: usize,
     mass: &scene::RockMass,
-) -> Result<(Vec<Block>, LeftOut)> {
+) -> Result<(Vec<Block>, DiscardedPieces)> {
     let key = format!("rock_masses[{index}]");
     let name = match &mass.name {
         Some(name) => name.clone(),
@@ -42,7 +42,7 @@ pub(super) fn blocks(
     let fragments = rock
         .cut()
         .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
-    let mut left_out = LeftOut {
+    let mut left_out = DiscardedPieces {
         mass: name.clone(),
         pieces: fragments.slivers.len(),
         share: fragments.slivers.iter().map(|s| s.volume).sum::<f64>() / fragments.volume,

@@ -22,7 +22,7 @@ pub struct BlockSetup {
     /// The blocks.
     pub setup: Setup,
     /// The rock masses from which pieces are left out.
-    pub left_out: Vec<LeftOut>,
+    pub left_out: Vec<DiscardedPieces>,
     /// Number of blocks that a fluid flows around; they come first. After them come the solids and walls, which the
     /// cells of a lattice represent already.
     pub in_fluid: usize,
@@ -30,7 +30,7 @@ pub struct BlockSetup {
 
 /// Pieces of a rock mass that are smaller or thinner than the scene allows for blocks.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LeftOut {
+pub struct DiscardedPieces {
     /// Name of the rock mass.
     pub mass: String,
     /// Number of pieces.

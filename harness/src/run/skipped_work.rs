@@ -7,7 +7,7 @@ use std::fmt;
 
 /// Work of one kind: how much was done, out of how much a program without this shortcut does.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct LeftOut {
+pub struct SkippedWork {
     /// What was skipped, and why.
     pub what: String,
     /// Work done.
@@ -16,7 +16,7 @@ pub struct LeftOut {
     pub of: f64,
 }
 
-impl LeftOut {
+impl SkippedWork {
     /// Those of `works` (what, done, of how much) that were not done in full.
     fn some<'a>(works: impl IntoIterator<Item = (&'a str, f64, f64)>) -> Vec<Self> {
         let works = works.into_iter().filter(|(_, done, of)| done < of);
@@ -111,7 +111,7 @@ impl LeftOut {
     }
 }
 
-impl fmt::Display for LeftOut {
+impl fmt::Display for SkippedWork {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:.0} of {:.0} {}", self.done, self.of, self.what)
     }
@@ -130,12 +130,12 @@ mod tests {
             programs: 9,
             ..Rocks::default()
         };
-        let found = LeftOut::of_rocks(&rocks);
+        let found = SkippedWork::of_rocks(&rocks);
         assert_eq!(found.len(), 1);
         let text = found[0].to_string();
         assert!(text.starts_with("9 of 900 linear programs"), "{text}");
         rocks.pairs = 12;
-        assert_eq!(LeftOut::of_rocks(&rocks).len(), 2);
-        assert_eq!(LeftOut::line(&[]), None);
+        assert_eq!(SkippedWork::of_rocks(&rocks).len(), 2);
+        assert_eq!(SkippedWork::line(&[]), None);
     }
 }

@@ -13,7 +13,7 @@ const SAME: f64 = 0.996;
 
 /// Factors of safety of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Standing {
+pub struct SafetyFactors {
     /// Safety against sliding.
     pub sliding: Sliding,
     /// Safety against uplift: see [`uplift`].
@@ -24,7 +24,7 @@ pub struct Standing {
 
 /// The supports and loads of a block without the load of the fluid.
 #[derive(Clone, Debug)]
-pub struct Footing {
+pub struct Supports {
     supports: Vec<Support>,
     weight: DVec3,
     centre: DVec3,
@@ -54,17 +54,17 @@ impl Support {
     }
 }
 
-impl Standing {
+impl SafetyFactors {
     /// The factors of the block `block` of `blocks`, which were created from `setup`, under the force (N) and the torque about
     /// its centroid (N m) of the `fluid`, buoyancy included; zero without a fluid. Point loads and the applied acceleration
     /// of the block are included; forces of its guides are not.
     pub fn of(setup: &Setup, blocks: &Blocks, block: usize, fluid: [DVec3; 2]) -> Self {
-        Footing::of(setup, blocks, block).under(fluid)
+        Supports::of(setup, blocks, block).under(fluid)
     }
 }
 
-impl Footing {
-    /// The footing of the block `block` of `blocks`, which were created from `setup`, at its present pose.
+impl Supports {
+    /// The supports of the block `block` of `blocks`, which were created from `setup`, at its present pose.
     pub fn of(setup: &Setup, blocks: &Blocks, block: usize) -> Self {
         let [force, torque] = blocks.applied_load(block);
         Self {
@@ -76,7 +76,7 @@ impl Footing {
     }
 
     /// The factors of the block under the `force` (N) and `torque` about its centroid (N m) of a fluid, buoyancy included.
-    pub fn under(&self, [force, torque]: [DVec3; 2]) -> Standing {
+    pub fn under(&self, [force, torque]: [DVec3; 2]) -> SafetyFactors {
         let Self {
             supports,
             weight,
@@ -102,7 +102,7 @@ impl Footing {
             let mut others = others.clone();
             others.all(|support| support.lets_turn(axis, edge))
         };
-        Standing {
+        SafetyFactors {
             sliding: sliding(resultant, &planes),
             uplift: uplift(weight, force),
             toppling: toppling(weight, &[fluid, acting], *centre, &base, open),

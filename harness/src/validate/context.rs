@@ -19,7 +19,7 @@ pub const WARM_UP: u64 = 4;
 
 /// The device on which the cases run, and their options.
 #[derive(Debug)]
-pub struct Stand {
+pub struct CaseContext {
     /// The device.
     pub device: wgpu::Device,
     /// Its queue.
@@ -32,7 +32,7 @@ pub struct Stand {
     pub pictures: Option<PathBuf>,
 }
 
-impl Stand {
+impl CaseContext {
     /// Opens the adapter whose description contains `name`, or the first one, with all its limits.
     ///
     /// # Errors
@@ -97,12 +97,12 @@ impl Stand {
     pub fn setup(&self, cells: [u32; 3], nu: f64) -> Setup {
         let mut setup = Setup::periodic(cells, nu);
         if self.software {
-            setup.suit_cpu(self.device.features());
+            setup.use_cpu_layout(self.device.features());
             if cells[2].is_multiple_of(4) {
                 setup.lanes = 4;
             }
         } else {
-            setup.suit_gpu();
+            setup.use_gpu_layout();
         }
         setup
     }
@@ -137,7 +137,7 @@ impl Stand {
     fn still(&self, setup: Setup) -> anyhow::Result<Flow<'_>> {
         let lattice = Lattice::new(&self.device, setup)?;
         Ok(Flow {
-            stand: self,
+            context: self,
             lattice,
             observer: None,
             seconds: 0.0,
@@ -160,7 +160,7 @@ impl Stand {
 /// the method.
 #[derive(Debug)]
 pub struct Flow<'a> {
-    stand: &'a Stand,
+    context: &'a CaseContext,
     lattice: Lattice,
     /// Created on first use.
     observer: Option<Observer>,
@@ -185,7 +185,7 @@ impl Flow<'_> {
         let begin = Instant::now();
         let cells = self.lattice.grid().cell_count() as u64;
         let chunk = (SUBMISSION / cells).clamp(1, 512);
-        let (device, queue) = (&self.stand.device, &self.stand.queue);
+        let (device, queue) = (&self.context.device, &self.context.queue);
         let end = self.lattice.step() + steps;
         let mut fault = None;
         while fault.is_none() && self.lattice.step() < end {
@@ -224,28 +224,28 @@ impl Flow<'_> {
         }
     }
 
-    fn observer(&mut self) -> riprap::Result<(&mut Observer, &mut Lattice, &Stand)> {
+    fn observer(&mut self) -> riprap::Result<(&mut Observer, &mut Lattice, &CaseContext)> {
         let observer = match self.observer.take() {
             Some(made) => made,
-            None => Observer::new(&self.stand.device, &self.lattice)?,
+            None => Observer::new(&self.context.device, &self.lattice)?,
         };
         let observer = self.observer.insert(observer);
-        Ok((observer, &mut self.lattice, self.stand))
+        Ok((observer, &mut self.lattice, self.context))
     }
 
     /// The fault that the guard found, if any; also waits for all submitted work.
     fn fault(&mut self) -> riprap::Result<Option<Fault>> {
-        let (observer, lattice, stand) = self.observer()?;
-        let future = observer.fault(&stand.device, &stand.queue, lattice);
-        stand.drive("a validation case", future)?
+        let (observer, lattice, context) = self.observer()?;
+        let future = observer.fault(&context.device, &context.queue, lattice);
+        context.drive("a validation case", future)?
     }
 
     /// Density and velocity, lattice units.
     pub fn state(&mut self) -> anyhow::Result<State> {
         let begin = Instant::now();
-        let (observer, lattice, stand) = self.observer()?;
-        let future = observer.state(&stand.device, &stand.queue, lattice);
-        let state = stand.drive("reading a state", future)??;
+        let (observer, lattice, context) = self.observer()?;
+        let future = observer.state(&context.device, &context.queue, lattice);
+        let state = context.drive("reading a state", future)??;
         self.seconds += begin.elapsed().as_secs_f64();
         Ok(state)
     }
@@ -253,7 +253,7 @@ impl Flow<'_> {
     /// Sets the velocities of the cells of the velocity face x−.
     pub fn set_inlet(&mut self, velocity: Vec<[f32; 3]>) -> anyhow::Result<()> {
         let lattice = &mut self.lattice;
-        Ok(lattice.set_face_velocity(&self.stand.queue, 0, 0, velocity)?)
+        Ok(lattice.set_face_velocity(&self.context.queue, 0, 0, velocity)?)
     }
 
     /// Velocities of moving faces in the last step, nine values per cell.
@@ -261,42 +261,42 @@ impl Flow<'_> {
         let Some(buffer) = self.lattice.wall_velocity_buffer() else {
             return Ok(Vec::new());
         };
-        let stand = self.stand;
+        let context = self.context;
         let mut readback = Readback::default();
         let read = readback.read(
-            &stand.device,
-            &stand.queue,
+            &context.device,
+            &context.queue,
             buffer,
             (buffer.size() / 4) as usize,
         );
-        Ok(stand.drive("velocities of faces", read)??)
+        Ok(context.drive("velocities of faces", read)??)
     }
 
     /// Stresses on the walls of a wall model in the last step, lattice units.
     pub fn wall_stresses(&mut self) -> anyhow::Result<Vec<WallStress>> {
-        let stand = self.stand;
-        let future = self.lattice.wall_stresses(&stand.device, &stand.queue);
-        Ok(stand.drive("reading wall stresses", future)??)
+        let context = self.context;
+        let future = self.lattice.wall_stresses(&context.device, &context.queue);
+        Ok(context.drive("reading wall stresses", future)??)
     }
 
     /// A field derived from the velocity gradient, lattice units.
     pub fn derived(&mut self, quantity: Derived) -> anyhow::Result<Vec<f32>> {
-        let (observer, lattice, stand) = self.observer()?;
-        let future = observer.derived(&stand.device, &stand.queue, lattice, quantity);
-        Ok(stand.drive("reading a field", future)??)
+        let (observer, lattice, context) = self.observer()?;
+        let future = observer.derived(&context.device, &context.queue, lattice, quantity);
+        Ok(context.drive("reading a field", future)??)
     }
 
     /// Sums over the fluid, lattice units.
     pub fn sums(&mut self) -> anyhow::Result<Sums> {
-        let (observer, lattice, stand) = self.observer()?;
-        let future = observer.sums(&stand.device, &stand.queue, lattice);
-        Ok(stand.drive("reading sums", future)??)
+        let (observer, lattice, context) = self.observer()?;
+        let future = observer.sums(&context.device, &context.queue, lattice);
+        Ok(context.drive("reading sums", future)??)
     }
 
     /// The populations in canonical order.
     pub fn populations(&mut self) -> anyhow::Result<Populations> {
-        let stand = self.stand;
-        let future = self.lattice.populations(&stand.device, &stand.queue);
-        Ok(stand.drive("reading populations", future)??)
+        let context = self.context;
+        let future = self.lattice.populations(&context.device, &context.queue);
+        Ok(context.drive("reading populations", future)??)
     }
 }

@@ -44,6 +44,7 @@ mod flow_control;
 mod lattice_fluid;
 mod needs;
 pub mod probe;
+mod restart;
 mod sensors;
 mod sph_fluid;
 mod statistics;
@@ -75,7 +76,6 @@ use crate::{
     sph::{SphSolver, Water},
     units::Units,
 };
-use checkpoint::{Checkpoint, FluidState, other_scene};
 use lattice_fluid::LatticeFluid;
 use sph_fluid::SphFluid;
 use std::sync::Arc;
@@ -444,63 +444,6 @@ impl Simulation {
             Some(Fluid::Particles(fluid)) => Ok(fluid),
             _ => Err(no_water()),
         }
-    }
-
-    /// The present state, for a later [`Simulation::restore`].
-    ///
-    /// # Errors
-    /// If the device is lost.
-    pub async fn checkpoint(&mut self) -> Result<Checkpoint> {
-        // The coupling of a lattice waits for loads in flight, so the fluid is read before the blocks.
-        let fluid = match &mut self.fluid {
-            Some(Fluid::Lattice(fluid)) => Some(FluidState::Lattice(fluid.state().await?)),
-            Some(Fluid::Particles(fluid)) => {
-                Some(FluidState::Particles(fluid.state(&self.scene).await?))
-            }
-            None => None,
-        };
-        Ok(Checkpoint {
-            step: self.step(),
-            time_step: self.time_step,
-            rock: self.rock.as_ref().map(Rock::state),
-            fluid,
-        })
-    }
-
-    /// Restores a checkpoint of the same scene: the next steps are bit-identical to the steps of the run that wrote it.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] if it has another kind, time step, grid, or number of particles or blocks.
-    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<()> {
-        // Everything is checked before the first change. The time step is checked last: it follows from the rest.
-        match (&self.fluid, &checkpoint.fluid) {
-            (Some(Fluid::Lattice(fluid)), Some(FluidState::Lattice(state))) => {
-                fluid.check_state(state)?;
-            }
-            (Some(Fluid::Particles(fluid)), Some(FluidState::Particles(state))) => {
-                fluid.check_state(&self.scene, state)?;
-            }
-            (None, None) => {}
-            _ => return Err(other_scene(checkpoint.kind(), self.kind())),
-        }
-        checkpoint.check_time_step(self.time_step)?;
-        match (&mut self.rock, &checkpoint.rock) {
-            (Some(rock), Some(state)) => rock.restore(state)?,
-            (None, None) => {}
-            (Some(_), None) => return Err(other_scene("no blocks", "blocks")),
-            (None, Some(_)) => return Err(other_scene("blocks", "no blocks")),
-        }
-        match (&mut self.fluid, &checkpoint.fluid) {
-            (Some(Fluid::Lattice(fluid)), Some(FluidState::Lattice(state))) => {
-                fluid.restore(state)?;
-            }
-            (Some(Fluid::Particles(fluid)), Some(FluidState::Particles(state))) => {
-                fluid.restore(state)?;
-            }
-            _ => {}
-        }
-        self.step = checkpoint.step;
-        Ok(())
     }
 }
 

@@ -5,6 +5,7 @@ mod divergence_guard;
 mod force;
 mod kernels;
 mod limits;
+mod refusals;
 mod reproducibility;
 mod rows;
 mod statistics;

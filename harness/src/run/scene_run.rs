@@ -1,17 +1,15 @@
 //! A scene on its own device, or on the host for blocks without a fluid that need no device.
 
+mod recorders;
+
 use super::{
-    collection, gauges,
     lattice::{Coupling, LatticeSummary},
-    recorder::{Recorders, RunLog, Schedule},
-    rock::{Rock, Rocks, block_probe},
+    recorder::RunLog,
+    rock::{Rock, Rocks},
     skipped_work::SkippedWork,
-    slices,
     summary::Summary,
-    table::TimeTable,
     throughput::Throughput,
-    views::{Views, solid_blocks},
-    walls,
+    views::solid_blocks,
     water::{Energies, WaterSummary},
 };
 use crate::{bench::copy_bandwidth, gpu, search};
@@ -20,10 +18,10 @@ use riprap::{
     lattice::{Lattice, Memory},
     output::{Array, ImageData},
     rock::{Block, EnergyLedger},
-    scene::{Field, Probe, ProbePlace, Scene, build::block_setup},
+    scene::{Field, Scene, build::block_setup},
     simulation::{
         Kind, Needs, Simulation, Totals, WallFrictions, WallUnits, WaterLedger,
-        checkpoint::Checkpoint, probe::Gauge,
+        checkpoint::Checkpoint,
     },
     sph::{self, Water},
     units::Units,
@@ -326,76 +324,6 @@ impl SceneRun {
     pub(super) fn water_ledger(&mut self) -> Result<WaterLedger> {
         let water = self.water()?;
         Ok(self.simulation.ledger(&water)?.since(&self.water_start))
-    }
-
-    /// The recorders of the scene until the step `last`, except histories and checkpoints.
-    ///
-    /// # Errors
-    /// If a probe cannot be placed in the scene, or a table cannot be written.
-    pub fn recorders(&self, folder: &Path, last: u64) -> Result<Recorders> {
-        let scene = self.scene();
-        let kind = self.simulation.kind();
-        let mut recorders = Recorders::new();
-        recorders.extend(walls::recorder(self, folder, last)?);
-        for probe in &scene.probes {
-            recorders.extend(self.probe(folder, last, probe)?);
-        }
-        recorders.extend(collection::recorders(self, folder, last)?);
-        if kind == Kind::Lattice {
-            let every = self.time_step() * last as f64 / LOOKS;
-            let schedule = Schedule::new(Some(every), self.time_step(), last);
-            let look = |run: &mut Self, log: &mut RunLog| {
-                log.max_speed = log.max_speed.max(run.totals()?.max_speed);
-                Ok(())
-            };
-            recorders.push(Box::new((schedule, look)));
-            let slices = scene.output.slices.iter();
-            recorders.extend(slices.map(|slice| slices::recorder(self, folder, last, slice)));
-        }
-        for view in &scene.views {
-            let adapter = self.drawing_adapter.clone();
-            recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
-        }
-        Ok(recorders)
-    }
-
-    /// The recorders of the tables of a probe.
-    fn probe(&self, folder: &Path, last: u64, probe: &Probe) -> Result<Recorders> {
-        let simulation = &self.simulation;
-        match (&probe.place, simulation.kind()) {
-            (
-                ProbePlace::Block {
-                    block,
-                    faces,
-                    safety,
-                },
-                kind,
-            ) => {
-                let tables = [*faces && kind == Kind::Lattice, *safety];
-                block_probe::recorders(self, folder, last, (probe, block), tables)
-            }
-            (_, Kind::Rock) => {
-                let message = "measures a fluid, and there is none";
-                Err(Error::scene(format!("probes.{}", probe.name), message))
-            }
-            (_, Kind::Lattice) => {
-                let gauge = Gauge::new(self.scene(), simulation.solid(), probe)?;
-                let table = TimeTable {
-                    name: probe.name.clone(),
-                    every: probe.every,
-                    columns: gauge.columns().to_vec(),
-                    coordinates: Some(gauge.coordinates()),
-                    tracks: Vec::new(),
-                    title: String::new(),
-                };
-                let recorder = table.recorder(self, folder, last, move |run, _| {
-                    let arrays = run.read(gauge.fields(), gauge.cells())?;
-                    Ok(gauge.rows(&arrays)?)
-                });
-                Ok(vec![recorder?])
-            }
-            (_, Kind::Particles) => Ok(vec![gauges::recorder(self, folder, last, probe)?]),
-        }
     }
 
     /// The device of the run, in one line.

@@ -1,0 +1,90 @@
+//! The recorders that a scene requests.
+
+use super::super::{
+    collection, gauges,
+    recorder::{Recorders, RunLog, Schedule},
+    rock::block_probe,
+    slices,
+    table::TimeTable,
+    views::Views,
+    walls,
+};
+use super::{LOOKS, SceneRun};
+use riprap::{
+    Error, Result,
+    scene::{Probe, ProbePlace},
+    simulation::{Kind, probe::Gauge},
+};
+use std::path::Path;
+
+impl SceneRun {
+    /// The recorders of the scene until the step `last`, except histories and checkpoints.
+    ///
+    /// # Errors
+    /// If a probe cannot be placed in the scene, or a table cannot be written.
+    pub fn recorders(&self, folder: &Path, last: u64) -> Result<Recorders> {
+        let scene = self.scene();
+        let kind = self.simulation.kind();
+        let mut recorders = Recorders::new();
+        recorders.extend(walls::recorder(self, folder, last)?);
+        for probe in &scene.probes {
+            recorders.extend(self.probe(folder, last, probe)?);
+        }
+        recorders.extend(collection::recorders(self, folder, last)?);
+        if kind == Kind::Lattice {
+            let every = self.time_step() * last as f64 / LOOKS;
+            let schedule = Schedule::new(Some(every), self.time_step(), last);
+            let look = |run: &mut Self, log: &mut RunLog| {
+                log.max_speed = log.max_speed.max(run.totals()?.max_speed);
+                Ok(())
+            };
+            recorders.push(Box::new((schedule, look)));
+            let slices = scene.output.slices.iter();
+            recorders.extend(slices.map(|slice| slices::recorder(self, folder, last, slice)));
+        }
+        for view in &scene.views {
+            let adapter = self.drawing_adapter.clone();
+            recorders.push(Box::new(Views::new(self, folder, last, view, adapter)));
+        }
+        Ok(recorders)
+    }
+
+    /// The recorders of the tables of a probe.
+    fn probe(&self, folder: &Path, last: u64, probe: &Probe) -> Result<Recorders> {
+        let simulation = &self.simulation;
+        match (&probe.place, simulation.kind()) {
+            (
+                ProbePlace::Block {
+                    block,
+                    faces,
+                    safety,
+                },
+                kind,
+            ) => {
+                let tables = [*faces && kind == Kind::Lattice, *safety];
+                block_probe::recorders(self, folder, last, (probe, block), tables)
+            }
+            (_, Kind::Rock) => {
+                let message = "measures a fluid, and there is none";
+                Err(Error::scene(format!("probes.{}", probe.name), message))
+            }
+            (_, Kind::Lattice) => {
+                let gauge = Gauge::new(self.scene(), simulation.solid(), probe)?;
+                let table = TimeTable {
+                    name: probe.name.clone(),
+                    every: probe.every,
+                    columns: gauge.columns().to_vec(),
+                    coordinates: Some(gauge.coordinates()),
+                    tracks: Vec::new(),
+                    title: String::new(),
+                };
+                let recorder = table.recorder(self, folder, last, move |run, _| {
+                    let arrays = run.read(gauge.fields(), gauge.cells())?;
+                    Ok(gauge.rows(&arrays)?)
+                });
+                Ok(vec![recorder?])
+            }
+            (_, Kind::Particles) => Ok(vec![gauges::recorder(self, folder, last, probe)?]),
+        }
+    }
+}

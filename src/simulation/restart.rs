@@ -31,7 +31,7 @@ impl Simulation {
     /// Restores a checkpoint of the same scene: the next steps are bit-identical to the steps of the run that wrote it.
     ///
     /// # Errors
-    /// [`Error::Argument`] if it has another kind, time step, grid, or number of particles or blocks.
+    /// [`Error::Argument`](crate::Error::Argument) if it has another kind, time step, grid, or number of particles or blocks.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<()> {
         // Everything is checked before the first change. The time step is checked last: it follows from the rest.
         match (&self.fluid, &checkpoint.fluid) {

@@ -1,5 +1,5 @@
 // Verlet 1967, Phys. Rev. 159:98: writes the fluid particles within the list radius of a point into a list.
-// needs cell_grid, $cell_ranges, neighbour_list_layout, at_once
+// needs cell_grid, $cell_ranges, neighbour_list_layout, neighbour_batch
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(1) var<storage, read> starts: array<u32>;
@@ -12,15 +12,15 @@ fn list_fluid_neighbours(at: vec3<i32>, first: u32) -> u32 {
     for (var k = 0; k < CELL_RANGES; k++) {
         let cells = cell_range(home, k);
         let end = starts[cells.y];
-        for (var j = starts[cells.x]; j < end; j += NEIGHBOURS_AT_ONCE) {
+        for (var j = starts[cells.x]; j < end; j += NEIGHBOURS_PER_BATCH) {
             var others: array<vec3<i32>, 4>;
             for (var i = 0u; i < 4u; i++) { // unroll
-                if (i < NEIGHBOURS_AT_ONCE) {
-                    others[i] = particles[place_of(j, i, end)].at;
+                if (i < NEIGHBOURS_PER_BATCH) {
+                    others[i] = particles[clamped_index(j, i, end)].at;
                 }
             }
             for (var i = 0u; i < 4u; i++) { // unroll
-                if (i < NEIGHBOURS_AT_ONCE) {
+                if (i < NEIGHBOURS_PER_BATCH) {
                     count = listed(at, others[i], is_before(j, i, end), j + i, first, count);
                 }
             }

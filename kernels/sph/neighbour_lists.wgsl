@@ -29,15 +29,15 @@ fn neighbour_lists(
     for (var k = 0; k < CELL_RANGES; k++) {
         let cells = cell_range(home, k);
         let end = boundary_starts[cells.y];
-        for (var j = boundary_starts[cells.x]; j < end; j += NEIGHBOURS_AT_ONCE) {
+        for (var j = boundary_starts[cells.x]; j < end; j += NEIGHBOURS_PER_BATCH) {
             var others: array<vec3<i32>, 4>;
             for (var i = 0u; i < 4u; i++) { // unroll
-                if (i < NEIGHBOURS_AT_ONCE) {
-                    others[i] = boundary[place_of(j, i, end)].at;
+                if (i < NEIGHBOURS_PER_BATCH) {
+                    others[i] = boundary[clamped_index(j, i, end)].at;
                 }
             }
             for (var i = 0u; i < 4u; i++) { // unroll
-                if (i < NEIGHBOURS_AT_ONCE) {
+                if (i < NEIGHBOURS_PER_BATCH) {
                     count = listed(at, others[i], is_before(j, i, end), j + i, first, count);
                 }
             }

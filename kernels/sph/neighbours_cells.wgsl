@@ -9,10 +9,10 @@ fn visit_neighbours(n: u32, at: vec3<i32>) {
     for (var k = 0; k < CELL_RANGES; k++) {
         let cells = cell_range(home, k);
         let end = boundary_starts[cells.y];
-        for (var j = boundary_starts[cells.x]; j < end; j += NEIGHBOURS_AT_ONCE) {
+        for (var j = boundary_starts[cells.x]; j < end; j += NEIGHBOURS_PER_BATCH) {
             for (var i = 0u; i < 4u; i++) { // unroll
-                if (i < NEIGHBOURS_AT_ONCE) {
-                    visit_boundary(place_of(j, i, end), is_before(j, i, end));
+                if (i < NEIGHBOURS_PER_BATCH) {
+                    visit_boundary(clamped_index(j, i, end), is_before(j, i, end));
                 }
             }
         }

@@ -5,10 +5,10 @@ fn visit_neighbours(n: u32, at: vec3<i32>) {
     visit_fluid_neighbours(n, at);
     let first = list_start(n);
     let counts = neighbour_counts[n];
-    for (var k = counts.x; k < counts.y; k += NEIGHBOURS_AT_ONCE) {
+    for (var k = counts.x; k < counts.y; k += NEIGHBOURS_PER_BATCH) {
         for (var i = 0u; i < 4u; i++) { // unroll
-            if (i < NEIGHBOURS_AT_ONCE) {
-                visit_boundary(neighbour_list[first + 64u * place_of(k, i, counts.y)], is_before(k, i, counts.y));
+            if (i < NEIGHBOURS_PER_BATCH) {
+                visit_boundary(neighbour_list[first + 64u * clamped_index(k, i, counts.y)], is_before(k, i, counts.y));
             }
         }
     }

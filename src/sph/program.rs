@@ -144,7 +144,7 @@ pub fn constants(setup: &Setup, grid: &CellGrid) -> Vec<(&'static str, f64)> {
         ("QUANTUM", 1.0 / grid.quanta),
         ("SUPPORT_SQUARED", support * support),
         (
-            "NEIGHBOURS_AT_ONCE",
+            "NEIGHBOURS_PER_BATCH",
             if setup.batched_neighbours { 4.0 } else { 1.0 },
         ),
         ("LIST_SQUARED", (support + grid.skin).powi(2)),

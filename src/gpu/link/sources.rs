@@ -31,13 +31,13 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "joint_gap", "joint_closure", "tile_sum_parallel",
         "tile_sum_serial", "workgroup_index", "voxelise", "voxelise_edges", "wrench";
     "sph":
-        "accelerate", "advance_clock", "advect", "apply_penalty", "at_once", "bodies", "body_load", "body_sums",
+        "accelerate", "advance_clock", "advect", "apply_penalty", "bodies", "body_load", "body_sums",
         "boundary_force", "boundary_neighbour_lists", "boundary_position", "boundary_pressure", "cell_grid",
         "cell_ranges_open", "cell_ranges_periodic", "check_capacity", "clock", "clock_atomic", "drag_laminar",
         "drag_none", "drift", "equation_of_state_linear", "equation_of_state_tait", "extrapolated_pressure",
         "fluid_neighbours_cells", "fluid_neighbours_lists", "list_fluid_neighbours", "mueller_accelerate",
         "mueller_density", "mueller_drift", "mueller_kernels", "mueller_load", "neighbour_list_layout",
-        "neighbour_lists", "neighbours_cells", "neighbours_lists", "penalty", "pressure_probes",
+        "neighbour_batch", "neighbour_lists", "neighbours_cells", "neighbours_lists", "penalty", "pressure_probes",
         "reduce_limits", "reduce_particle_limits", "sort_count", "sort_reorder", "sort_scatter",
         "sort_starts", "viscous_laminar", "viscous_none", "wall_velocity_no_slip", "wall_velocity_none",
         "wall_work", "wendland";

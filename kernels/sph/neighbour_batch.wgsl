@@ -2,10 +2,10 @@
 // first, and adds without branches, which would separate the loads. A CPU adapter visits one neighbour at a time.
 
 // Number of neighbours that are loaded before the first of them is added, 4 at most.
-override NEIGHBOURS_AT_ONCE: u32;
+override NEIGHBOURS_PER_BATCH: u32;
 
 // Index k + i, or the last index before `end` if k + i is not before `end`.
-fn place_of(k: u32, i: u32, end: u32) -> u32 {
+fn clamped_index(k: u32, i: u32, end: u32) -> u32 {
     return select(min(k + i, end - 1u), k, i == 0u);
 }
 
@@ -16,5 +16,5 @@ fn is_before(k: u32, i: u32, end: u32) -> bool {
 
 // Whether a neighbour is added. In batches all are; a neighbour that is not inside must then contribute zero.
 fn is_added(inside: bool) -> bool {
-    return (NEIGHBOURS_AT_ONCE > 1u) | inside;
+    return (NEIGHBOURS_PER_BATCH > 1u) | inside;
 }

@@ -6,7 +6,7 @@
 
 // For each face cell the populations that enter through the face in the next step; in place of the
 // population at rest, the sum over time.
-@group(0) @binding(41) var<storage, read_write> carried: array<f32>;
+@group(0) @binding(41) var<storage, read_write> outflow_state: array<f32>;
 
 struct Inside {
     excess: f32,
@@ -49,12 +49,12 @@ fn store_outflow(
     let speed = clamp(inverseSqrt(3.0) + inner_state.outward_speed, 0.0, 1.0);
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {
-            carried[27u * n + q] = own[q] + speed * (inner[q] - own[q]);
+            outflow_state[27u * n + q] = own[q] + speed * (inner[q] - own[q]);
         }
     }
     // The density on the face, half a cell further out.
     let face_excess = 1.5 * inside(own).excess - 0.5 * inner_state.excess;
-    carried[27u * n] += open_face.integral * (held - face_excess);
+    outflow_state[27u * n] += open_face.integral * (held - face_excess);
 }
 
 @compute @workgroup_size(64)
@@ -71,11 +71,11 @@ fn apply_outflow(
     let held = held_excess(here.cell);
     let cell = neighbourhood(padded_cell(here.cell));
     let inner_state = inside(all_incoming(neighbourhood(padded_cell(here.inner))));
-    let anchor = open_face.hold * (held - inner_state.excess) + carried[27u * n];
+    let anchor = open_face.hold * (held - inner_state.excess) + outflow_state[27u * n];
     // All loads precede the first write, so that they are independent.
     var kept: array<f32, 27>;
     for (var q = 1u; q < 27u; q++) { // unroll
-        kept[q] = carried[27u * n + q];
+        kept[q] = outflow_state[27u * n + q];
     }
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {

@@ -111,7 +111,7 @@ impl Lattice {
         if pass.first >= pass.end {
             return Ok(None);
         }
-        let (list, carried) = &self.buffers.open_faces[face];
+        let (list, outflow_state) = &self.buffers.open_faces[face];
         let dispatch = CellDispatch {
             program: &self.cell_program(file),
             entry: match action {
@@ -121,7 +121,7 @@ impl Lattice {
             pass,
             buffers: &[
                 ("face_cells", list),
-                ("carried", carried),
+                ("outflow_state", outflow_state),
                 ("open_face", &self.buffers.open_face_uniforms[face]),
             ],
             constants: &[],

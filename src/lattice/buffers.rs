@@ -158,10 +158,10 @@ pub(super) fn make_buffers(
         // A face that solids close entirely keeps one entry that no direction enters.
         let none = [FaceCell::default()];
         let cells = if cells.is_empty() { &none[..] } else { cells };
-        let carried = zeroed(device, "carried", 108 * cells.len() as u64);
+        let outflow_state = zeroed(device, "outflow_state", 108 * cells.len() as u64);
         (
             storage(device, "face cells", bytemuck::cast_slice(cells)),
-            carried,
+            outflow_state,
         )
     });
     Buffers {

@@ -35,7 +35,7 @@ impl Lattice {
             ),
             (
                 "open faces",
-                open.map(|(cells, carried)| cells.size() + carried.size())
+                open.map(|(cells, outflow_state)| cells.size() + outflow_state.size())
                     .sum(),
             ),
             (

@@ -34,7 +34,7 @@ pub struct Populations {
     pub near_wall: Vec<f32>,
     /// Data of the outflow faces for the next step, face by face.
     #[cfg_attr(feature = "checkpoint", serde(with = "crate::gpu::plain_bytes"))]
-    pub carried: Vec<f32>,
+    pub outflow_state: Vec<f32>,
     /// Displacement of the mean flow through each face with synthetic turbulence, 2⁻¹⁶ cell; if empty, faces start anew.
     pub travelled: Vec<u32>,
 }
@@ -88,16 +88,16 @@ impl Lattice {
             let of = |cell| plane[self.grid.scalar_of(cell) as usize];
             values.extend(self.grid.domain().map(of));
         }
-        let mut carried = Vec::new();
+        let mut outflow_state = Vec::new();
         for (face, (_, buffer)) in self.buffers.open_faces.iter().enumerate() {
             let count = (buffer.size() / 4) as usize;
             let own: Vec<f32> = readback.read(device, queue, buffer, count).await?;
             for place in self.places(face) {
-                carried.extend_from_slice(&own[27 * place..27 * (place + 1)]);
+                outflow_state.extend_from_slice(&own[27 * place..27 * (place + 1)]);
             }
         }
         Ok(Populations {
-            carried,
+            outflow_state,
             step: self.step,
             cells: self.grid.cells,
             values,
@@ -129,8 +129,8 @@ impl Lattice {
             return wrong(message.into());
         }
         let faces = self.buffers.open_faces.iter();
-        let carried: u64 = faces.map(|(_, buffer)| buffer.size() / 4).sum();
-        if state.carried.len() as u64 != carried {
+        let outflow_state: u64 = faces.map(|(_, buffer)| buffer.size() / 4).sum();
+        if state.outflow_state.len() as u64 != outflow_state {
             return wrong("the saved state has other pressure or outflow faces".into());
         }
         Ok(())
@@ -199,15 +199,15 @@ impl Lattice {
             }
             queue.submit([encoder.finish()]);
         }
-        let mut carried = state.carried.as_slice();
+        let mut outflow_state = state.outflow_state.as_slice();
         for (face, (_, buffer)) in self.buffers.open_faces.iter().enumerate() {
-            let (own, rest) = carried.split_at((buffer.size() / 4) as usize);
+            let (own, rest) = outflow_state.split_at((buffer.size() / 4) as usize);
             let mut values = own.to_vec();
             for (place, of_cell) in self.places(face).into_iter().zip(own.chunks(27)) {
                 values[27 * place..27 * (place + 1)].copy_from_slice(of_cell);
             }
             queue.write_buffer(buffer, 0, bytemuck::cast_slice(&values));
-            carried = rest;
+            outflow_state = rest;
         }
         Ok(())
     }

@@ -97,8 +97,8 @@ impl Lattice {
 
     /// Has outflow faces carry the present state to the next step.
     fn store_outflow_faces(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
-        for (_, carried) in &self.buffers.open_faces {
-            queue.write_buffer(carried, 0, &vec![0; carried.size() as usize]);
+        for (_, outflow_state) in &self.buffers.open_faces {
+            queue.write_buffer(outflow_state, 0, &vec![0; outflow_state.size() as usize]);
         }
         let passes = self.store_outflow_passes(device, self.parity() as u32)?;
         let mut encoder = device.create_command_encoder(&Default::default());

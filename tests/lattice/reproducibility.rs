@@ -54,7 +54,7 @@ fn bits(populations: &Populations) -> Vec<u32> {
         .filter(|(_, solid)| !**solid)
         .map(|(f, _)| f.to_bits());
     fluid
-        .chain(populations.carried.iter().map(|v| v.to_bits()))
+        .chain(populations.outflow_state.iter().map(|v| v.to_bits()))
         .chain(populations.travelled.iter().copied())
         .collect()
 }

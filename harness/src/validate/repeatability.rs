@@ -37,7 +37,7 @@ pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
     let mut same = |quantity: &str, trial: &super::Trial, other: &Populations| {
         let bits = |p: &Populations| -> Vec<u32> {
-            let all = p.values.iter().chain(&p.velocity).chain(&p.carried);
+            let all = p.values.iter().chain(&p.velocity).chain(&p.outflow_state);
             all.map(|v| v.to_bits()).collect()
         };
         let (a, b) = (bits(&first), bits(other));

@@ -53,7 +53,7 @@ fn noise(cells: [u32; 3]) -> Populations {
         eddy_viscosity: Vec::new(),
         near_wall: Vec::new(),
         travelled: Vec::new(),
-        carried: Vec::new(),
+        outflow_state: Vec::new(),
     }
 }
 

@@ -71,7 +71,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
     (
         "outflow",
         &["apply_outflow", "store_outflow"],
-        &["cell_pass", "open_face", "face_cells", "carried"],
+        &["cell_pass", "open_face", "face_cells", "outflow_state"],
     ),
     (
         "exchange",

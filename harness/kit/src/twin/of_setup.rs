@@ -123,7 +123,7 @@ pub fn random_populations(twin: &mut Twin) -> Populations {
         eddy_viscosity: Vec::new(),
         near_wall: Vec::new(),
         travelled: Vec::new(),
-        carried: Vec::new(),
+        outflow_state: Vec::new(),
     }
 }
 

@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let end = blocks.ledger();
     println!("{} contacts hold {end:#?}", blocks.contacts().count());
-    let error = (end.balance() - start.balance()).abs() / end.taken();
+    let error = (end.balance() - start.balance()).abs() / end.dissipated();
     println!("the energy adds up to {error:.1e} of what was taken");
     if fallen.iter().all(|&fallen| fallen) && error < 0.01 {
         Ok(())

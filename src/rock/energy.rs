@@ -17,7 +17,7 @@ use rayon_cond::CondIterator;
 /// Only free blocks contribute kinetic and potential energy. The springs of the contact law conserve energy
 /// only while the area of their contact is constant (k_n A u_n has a potential in u_n alone). Their energy is
 /// therefore defined as the work done on them, and the energy left when their contact ends is counted
-/// as `lost`, positive or negative.
+/// as `contact_loss`, positive or negative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyLedger {
     /// ½mv² + ½ω·L of the rigid free blocks; ½mv² + ½ tr Ḟ S Ḟᵀ of the deformable ones.
@@ -38,7 +38,7 @@ pub struct EnergyLedger {
     /// Dissipated by films of fluid between blocks that nearly touch.
     pub film: f64,
     /// Energy of springs whose contact ended: lost by the contact law, or gained if negative.
-    pub lost: f64,
+    pub contact_loss: f64,
     /// Work done on the blocks by the prescribed motion of the driven ones.
     pub driven: f64,
     /// Work done on the blocks by external loads, point loads and accelerations.
@@ -49,14 +49,14 @@ impl EnergyLedger {
     /// Present and dissipated energy, less the work done on the blocks: constant up to the error of the time
     /// integration.
     pub fn balance(&self) -> f64 {
-        self.kinetic + self.potential + self.strain + self.elastic + self.taken()
+        self.kinetic + self.potential + self.strain + self.elastic + self.dissipated()
             - self.driven
             - self.loads
     }
 
     /// Energy removed for good: dissipated, or lost with the contacts that ended.
-    pub fn taken(&self) -> f64 {
-        self.friction + self.dashpot + self.mass_damping + self.film + self.lost
+    pub fn dissipated(&self) -> f64 {
+        self.friction + self.dashpot + self.mass_damping + self.film + self.contact_loss
     }
 }
 
@@ -65,7 +65,7 @@ impl EnergyLedger {
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct WorkSums {
     pub friction: f64,
-    pub lost: f64,
+    pub contact_loss: f64,
     pub film: f64,
     /// Work of the dashpots, the mass damping, the driven blocks and the loads.
     pub work: [f64; 4],
@@ -121,10 +121,10 @@ impl WorkSums {
                 power[0] -= dashpots;
                 self.friction += contact.force.friction;
             }
-            self.lost = chunk
+            self.contact_loss = chunk
                 .ended
                 .iter()
-                .fold(self.lost, |lost, stored| lost + stored);
+                .fold(self.contact_loss, |lost, stored| lost + stored);
         }
         for (body, state) in bodies.iter().zip(states) {
             if body.is_free() {
@@ -179,7 +179,7 @@ impl WorkSums {
             dashpot,
             mass_damping,
             film: self.film,
-            lost: self.lost,
+            contact_loss: self.contact_loss,
             driven,
             loads,
         }

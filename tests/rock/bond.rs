@@ -149,7 +149,7 @@ fn energy_adds_up_over_stretching_and_breaking() {
     let end = blocks.ledger();
     assert_eq!(blocks.contacts().count(), 0);
     let released = 0.5 * 300f64.powi(2) / (1e9 * AREA);
-    assert_relative(end.lost, released, 0.02);
+    assert_relative(end.contact_loss, released, 0.02);
     let error = (end.balance() - start.balance()).abs();
     assert!(error < 0.01 * released, "{error} J of {end:?}");
 }

@@ -36,7 +36,7 @@ fn held(block: Block, point: DVec3) -> Block {
 
 fn error(blocks: &Blocks, start: f64) -> f64 {
     let ledger = blocks.ledger();
-    let turned = ledger.kinetic.abs() + ledger.taken() + ledger.strain + ledger.elastic;
+    let turned = ledger.kinetic.abs() + ledger.dissipated() + ledger.strain + ledger.elastic;
     (ledger.balance() - start).abs() / turned
 }
 

@@ -27,7 +27,7 @@ fn blocks_that_tumble_down_a_slope() {
     let end = blocks.ledger();
     let error = (end.balance() - start.balance()).abs();
     let fallen = start.potential - end.potential;
-    assert!(error < 0.01 * end.taken(), "{error} J of {end:?}");
+    assert!(error < 0.01 * end.dissipated(), "{error} J of {end:?}");
     // Every term contributes, and no dissipative term is negative.
     for (name, work) in [
         ("fallen", fallen),
@@ -38,7 +38,7 @@ fn blocks_that_tumble_down_a_slope() {
     ] {
         assert!(work > 1e-3 * fallen, "{name}: {work} J of {end:?}");
     }
-    assert!(end.lost.abs() < 0.05 * fallen, "{end:?}");
+    assert!(end.contact_loss.abs() < 0.05 * fallen, "{end:?}");
 }
 
 #[test]

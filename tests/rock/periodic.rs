@@ -75,7 +75,11 @@ fn blocks_that_meet_across_the_border_do_as_those_in_the_middle() {
             );
         }
         let found = across.ledger();
-        assert_near(found.taken(), ledger.taken(), 1e-8 * ledger.taken());
+        assert_near(
+            found.dissipated(),
+            ledger.dissipated(),
+            1e-8 * ledger.dissipated(),
+        );
     }
 }
 

@@ -135,7 +135,7 @@ fn about(quantity: Quantity, now: &Present) -> (&'static str, &'static str, f64)
         Quantity::ContactEnergy => ("elastic energy of contacts", "J", ledger.elastic),
         Quantity::FrictionWork => ("work of friction", "J", ledger.friction),
         Quantity::DampingWork => ("work of damping", "J", damping),
-        Quantity::ContactLoss => ("loss in contacts that ended", "J", ledger.lost),
+        Quantity::ContactLoss => ("loss in contacts that ended", "J", ledger.contact_loss),
         Quantity::OutsideWork => (
             "work of drives and loads",
             "J",

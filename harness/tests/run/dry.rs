@@ -78,7 +78,7 @@ fn a_dry_run_writes_blocks_contacts_tables_and_a_summary() {
     let (history, ledger) = (out.join("history.csv"), rocks.ledger);
     let damping = ledger.dashpot + ledger.mass_damping + ledger.film;
     assert_eq!(last(&history, "damping_work"), damping);
-    assert_eq!(last(&history, "contact_loss"), ledger.lost);
+    assert_eq!(last(&history, "contact_loss"), ledger.contact_loss);
 
     let blocks = read_with_vtk(&out.join("blocks.pvd"));
     let times: Vec<f64> = blocks["entries"]

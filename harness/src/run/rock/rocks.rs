@@ -39,7 +39,7 @@ pub struct Rocks {
     #[serde(skip)]
     pub max_von_mises: f64,
     /// Energy gained by the balance since the start, as a fraction of the energy turned over. The balance includes the energy
-    /// that contacts held when they ended, [`EnergyLedger::lost`].
+    /// that contacts held when they ended, [`EnergyLedger::contact_loss`].
     pub energy_error: f64,
     /// Energy that contacts held when they ended, as a fraction of the energy turned over: the error of the contact law,
     /// positive if it removes energy.
@@ -66,7 +66,7 @@ impl Rocks {
             max_speed: rock.max_speed(),
             max_speed_seen: rock.max_speed(),
             energy_error: rock.of_turnover(&ledger, ledger.balance() - rock.start.balance()),
-            contact_loss: rock.of_turnover(&ledger, ledger.lost - rock.start.lost),
+            contact_loss: rock.of_turnover(&ledger, ledger.contact_loss - rock.start.contact_loss),
             ledger,
             start_potential: rock.start.potential,
             max_von_mises: (0..rock.shown)
@@ -102,7 +102,7 @@ impl Rock<'_> {
             + now.dashpot
             + now.mass_damping
             + now.film
-            + now.lost.abs()
+            + now.contact_loss.abs()
             + now.driven.abs()
             + now.loads.abs();
         if turned > 0.0 { energy / turned } else { 0.0 }
@@ -119,7 +119,7 @@ fn energies<S: Serializer>(ledger: &EnergyLedger, serializer: S) -> Result<S::Ok
         ("dashpot", ledger.dashpot),
         ("mass_damping", ledger.mass_damping),
         ("film", ledger.film),
-        ("lost", ledger.lost),
+        ("lost", ledger.contact_loss),
         ("driven", ledger.driven),
         ("loads", ledger.loads),
     ])

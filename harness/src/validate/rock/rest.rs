@@ -29,7 +29,7 @@ fn settle(list: Vec<Block>, what: &str, (damping, time): (f64, f64), even: Optio
     let forces = rock.blocks.contact_forces().enumerate();
     let free = forces.filter(|(block, _)| rock.blocks.moves(*block));
     let unbalanced = free.map(off).fold(0.0, f64::max);
-    let error = rock.energy_error() / end.taken();
+    let error = rock.energy_error() / end.dissipated();
     // ½f_n u_n + f_s²/2k_s A, independent of the path that the ledger has followed. Both agree if the pressure is uniform; in the
     // joints of an arch it is not.
     let held = |contact: ContactPoint| {

@@ -2,6 +2,7 @@
 
 pub mod adapters;
 pub mod bench;
+mod broadphase;
 pub mod check;
 pub mod fingerprint;
 pub mod migrate;
@@ -12,7 +13,6 @@ pub mod render;
 pub mod report;
 pub mod run;
 pub mod schema;
-mod search;
 pub mod stress;
 pub mod threshold;
 pub mod validate;

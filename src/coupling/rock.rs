@@ -11,7 +11,7 @@ use crate::{
         broadphase::{AutoBroadphase, Broadphase},
     },
     scene::{
-        Scene, Search,
+        BroadphaseBackend, Scene,
         build::{BlockSetup, rock_key},
     },
 };
@@ -407,21 +407,25 @@ pub(super) fn broadphase(
     device: Option<(&wgpu::Device, &wgpu::Queue)>,
     scene: &Scene,
 ) -> Result<AutoBroadphase> {
-    let search = scene.rock.broadphase;
-    let broadphase = match (device, search) {
-        (Some((device, queue)), Search::Auto | Search::Device) => {
+    let backend = scene.rock.broadphase;
+    let broadphase = match (device, backend) {
+        (Some((device, queue)), BroadphaseBackend::Auto | BroadphaseBackend::Device) => {
             let processor = scene.run.kernels.processor(&device.adapter_info());
             let auto = scene.rock.broadphase_crossover;
             let auto = auto.unwrap_or(AutoBroadphase::crossover_on(processor));
             let mut broadphase = AutoBroadphase::new(device, queue);
-            broadphase.crossover = if search == Search::Device { 0 } else { auto };
+            broadphase.crossover = if backend == BroadphaseBackend::Device {
+                0
+            } else {
+                auto
+            };
             broadphase
         }
-        (None, Search::Device) => {
+        (None, BroadphaseBackend::Device) => {
             let message = "the broadphase requires a device, and none was given; give one, or use broadphase = \"host\"";
             return Err(Error::scene("rock.broadphase", message));
         }
-        (_, Search::Host) | (None, Search::Auto) => AutoBroadphase::on_host(),
+        (_, BroadphaseBackend::Host) | (None, BroadphaseBackend::Auto) => AutoBroadphase::on_host(),
     };
     Ok(broadphase)
 }

@@ -87,7 +87,7 @@ pub use output::{Field, History, Output, Quantity, Slice, SliceField};
 pub use particles::{EquationOfState, Particles, Scheme, Water};
 pub use probes::{Probe, ProbePlace};
 pub use renamed::{RENAMED_KEYS, RenamedKey, Renaming, migrate, renamed_keys};
-pub use rock::{Rock, Search, Sleep};
+pub use rock::{BroadphaseBackend, Rock, Sleep};
 pub use rock_masses::{Distribution, JointSet, Persistence, RockMass, Volume};
 pub use run::{Kernels, Run};
 pub use sample::{BodyForce, InitialFields, StartPressure};

@@ -36,7 +36,7 @@ pub struct Rock {
     /// they are refused.
     pub relax: bool,
     /// Where the broadphase runs. Default `auto`.
-    pub broadphase: Search,
+    pub broadphase: BroadphaseBackend,
     /// Number of convex parts from which `auto` uses the device, as measured by `riprap bench --device`. Default 1000 on a GPU,
     /// never on a CPU.
     pub broadphase_crossover: Option<usize>,
@@ -53,7 +53,7 @@ impl Default for Rock {
             largest_overlap: 0.1,
             corner_area: 0.0,
             relax: false,
-            broadphase: Search::default(),
+            broadphase: BroadphaseBackend::default(),
             broadphase_crossover: None,
         }
     }
@@ -72,7 +72,7 @@ pub struct Sleep {
 /// Where the broadphase, the search for pairs that may touch, runs; the pairs are bitwise the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
-pub enum Search {
+pub enum BroadphaseBackend {
     /// On the host for fewer parts than `broadphase_crossover`, else on the device if there is one.
     #[default]
     Auto,
@@ -98,7 +98,7 @@ impl Scene {
         if let Some(skin) = rock.skin {
             positive("rock.skin", skin, "m")?;
         }
-        if rock.broadphase_crossover.is_some() && rock.broadphase != Search::Auto {
+        if rock.broadphase_crossover.is_some() && rock.broadphase != BroadphaseBackend::Auto {
             return refuse(
                 "rock.broadphase_crossover",
                 "belongs to broadphase = \"auto\"; leave one of them out",

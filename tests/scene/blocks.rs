@@ -168,7 +168,7 @@ animation = false
 "#,
     )
     .unwrap();
-    assert_eq!(scene.rock.broadphase, Search::Device);
+    assert_eq!(scene.rock.broadphase, BroadphaseBackend::Device);
     assert_eq!(scene.views[0].size, [640, 480]);
     let setup = block_setup(&scene).unwrap().setup;
     let names: Vec<_> = setup.blocks.iter().map(|b| b.name.as_str()).collect();

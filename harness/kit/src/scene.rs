@@ -2,7 +2,7 @@
 
 use riprap::{
     Result,
-    scene::{Kernels, Scene, Search},
+    scene::{BroadphaseBackend, Kernels, Scene},
 };
 use std::path::Path;
 
@@ -44,8 +44,8 @@ pub fn kernels() -> Kernels {
 pub fn for_kernels(scene: &Scene, kernels: Kernels) -> Scene {
     let mut scene = scene.clone();
     scene.run.kernels = kernels;
-    if kernels == Kernels::Gpu && scene.rock.broadphase == Search::Auto {
-        scene.rock.broadphase = Search::Device;
+    if kernels == Kernels::Gpu && scene.rock.broadphase == BroadphaseBackend::Auto {
+        scene.rock.broadphase = BroadphaseBackend::Device;
     }
     scene
 }

@@ -1,7 +1,7 @@
 //! The blocks of a scene, with or without a fluid around them.
 
 use super::lines::Lines;
-use crate::{print::bytes, run::Coupling, search::left_out};
+use crate::{broadphase::left_out, print::bytes, run::Coupling};
 use riprap::{
     coupling::{Coupled, Gap},
     geometry::{Form, Shape},

@@ -1,7 +1,7 @@
 //! The header of a run: scene, adapter and steps.
 
 use super::{rock::Rock, scene_run::SceneRun, summary::Summary};
-use crate::{print, search::left_out};
+use crate::{broadphase::left_out, print};
 use riprap::{
     lattice::{Lattice, bytes_per_cell},
     sph::SphSolver,

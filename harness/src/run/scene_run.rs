@@ -12,7 +12,7 @@ use super::{
     views::solid_blocks,
     water::{Energies, WaterSummary},
 };
-use crate::{bench::copy_bandwidth, gpu, search};
+use crate::{bench::copy_bandwidth, broadphase, gpu};
 use riprap::{
     Error, Result,
     lattice::{Lattice, Memory},
@@ -83,7 +83,7 @@ impl SceneRun {
     /// # Errors
     /// If the scene is invalid, with the line in the file, or does not fit the adapter.
     pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Self> {
-        Self::of(scene, adapter).map_err(|error| search::located(error, file))
+        Self::of(scene, adapter).map_err(|error| broadphase::located(error, file))
     }
 
     fn of(scene: &Scene, name: Option<&str>) -> Result<Self> {
@@ -93,7 +93,7 @@ impl SceneRun {
             Kind::Lattice | Kind::Particles => None,
         };
         let adapter = match &blocks {
-            Some(blocks) => search::adapter(scene, blocks, name)?,
+            Some(blocks) => broadphase::adapter(scene, blocks, name)?,
             None => Some(gpu::pick(name)?),
         };
         let (mut device, mut needs) = (None, None);

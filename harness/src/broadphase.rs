@@ -6,7 +6,7 @@ use riprap::{
     gpu::Processor,
     rock::broadphase::AutoBroadphase,
     scene::{
-        Scene, Search,
+        BroadphaseBackend, Scene,
         build::{BlockSetup, DiscardedPieces},
     },
     wgpu,
@@ -26,9 +26,9 @@ pub fn adapter(
     let blocks = blocks.setup.blocks.iter();
     let parts: usize = blocks.map(|block| block.shape.parts().len()).sum();
     match scene.rock.broadphase {
-        Search::Device => gpu::pick(name).map(Some),
-        Search::Host => Ok(None),
-        Search::Auto => {
+        BroadphaseBackend::Device => gpu::pick(name).map(Some),
+        BroadphaseBackend::Host => Ok(None),
+        BroadphaseBackend::Auto => {
             // Adapters are only enumerated if one could be used.
             let from = |processor| {
                 let given = scene.rock.broadphase_crossover;

@@ -16,7 +16,7 @@ fn effective_radius(radius: f32) -> f32 {
 // plane, averaged with that below another plane. The weight of the other plane increases with the angle between both and with
 // the fraction that it cuts off; a plane that leaves the cell has no effect. Next to other parts: the fraction below the
 // lowest plane. Both are reduced for a tip that has just entered the cell.
-fn effective_hull(part: Part, r: vec3<f32>, solid: f32) -> vec2<f32> {
+fn effective_polyhedron(part: Part, r: vec3<f32>, solid: f32) -> vec2<f32> {
     if (solid <= 0.0) {
         return vec2(0.0);
     }

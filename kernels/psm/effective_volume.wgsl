@@ -5,6 +5,6 @@ fn effective_radius(radius: f32) -> f32 {
     return radius;
 }
 
-fn effective_hull(part: Part, r: vec3<f32>, solid: f32) -> vec2<f32> {
+fn effective_polyhedron(part: Part, r: vec3<f32>, solid: f32) -> vec2<f32> {
     return vec2(solid);
 }

@@ -2,7 +2,7 @@
 // in each cell of the listed tiles that it can reach, and its effective fraction, which determines the weight of the
 // solid. A workgroup processes a tile; its invocations share the cells. Cells at edges and on spheres are few and expensive:
 // they are appended to a list for voxelise_edges, in any order, because other cells of the workgroup would wait for them.
-// needs tables, brick, $ball_quick, $hull_quick
+// needs tables, brick, $sphere_quick, $polyhedron_quick
 
 @group(0) @binding(0) var<storage, read> work: array<u32>;
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
@@ -53,7 +53,7 @@ fn quick_fraction(tile: Tile, part: Part, place: vec3<u32>) -> f32 {
     }
     let cell = tile.cell + vec3<i32>(place);
     if (part.faces == 0u) {
-        return ball_quick(part, cell);
+        return sphere_quick(part, cell);
     }
-    return hull_quick(part, centre_from(cell, part.base, part.fraction));
+    return polyhedron_quick(part, centre_from(cell, part.base, part.fraction));
 }

@@ -1,5 +1,5 @@
 // Gardner & Sitar 2018, fig. 3: the fractions of one part in each cell that voxelise has left undecided.
-// needs workgroup, tables, brick, $ball_fraction, $hull_fraction
+// needs workgroup, tables, brick, $sphere_fraction, $polyhedron_fraction
 
 @group(0) @binding(1) var<storage, read> tiles: array<Tile>;
 @group(0) @binding(2) var<storage, read> parts: array<Part>;
@@ -29,9 +29,9 @@ fn voxelise_edges(
         let cell = tile.cell + vec3<i32>(place_in_brick(place % WORKGROUP));
         var fractions: Fractions;
         if (part.faces == 0u) {
-            fractions = ball_fraction(part, cell);
+            fractions = sphere_fraction(part, cell);
         } else {
-            fractions = hull_fraction(part, centre_from(cell, part.base, part.fraction));
+            fractions = polyhedron_fraction(part, centre_from(cell, part.base, part.fraction));
         }
         solid_fractions[place] = select(NEAR, fractions.solid, fractions.solid > 0.0);
         effective_fractions[place] = fractions.effective;

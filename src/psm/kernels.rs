@@ -48,7 +48,7 @@ impl Growing {
     }
 }
 
-/// Iterations of the loops of `hull_fraction` for a part of so many faces: three passes through all of them, and one more per
+/// Iterations of the loops of `polyhedron_fraction` for a part of so many faces: three passes through all of them, and one more per
 /// column.
 fn loop_iterations(faces: u32) -> u64 {
     let faces = u64::from(faces.max(1));

@@ -46,11 +46,11 @@ impl Forms {
     /// The files of the slots for spheres and for polyhedra.
     fn files(self, sphere: &'static str, polyhedron: &'static str) -> [&'static str; 2] {
         [
-            if self.spheres { sphere } else { "ball_none" },
+            if self.spheres { sphere } else { "sphere_none" },
             if self.polyhedra {
                 polyhedron
             } else {
-                "hull_none"
+                "polyhedron_none"
             },
         ]
     }
@@ -87,21 +87,21 @@ impl CellMapping {
 /// `voxelise`: one workgroup per tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `solid_fractions`, `edges`, whose
 /// first word must be 0 before, and which is one word longer than `solid_fractions`.
 pub fn voxelise(grid: &Grid, walk: CellMapping, forms: Forms, weight: SolidWeight) -> Program {
-    let [ball, hull] = forms.files("ball_quick", "hull_quick");
+    let [ball, hull] = forms.files("sphere_quick", "polyhedron_quick");
     walked("voxelise", grid, walk)
         .slot("effective", effective(weight))
-        .slot("ball_quick", ball)
-        .slot("hull_quick", hull)
+        .slot("sphere_quick", ball)
+        .slot("polyhedron_quick", hull)
 }
 
 /// `voxelise_edges`: computes the cells that `voxelise` has put into `edges`, by any number of workgroups. Binds `tiles`,
 /// `parts`, `faces`, `solid_fractions`, `edges`.
 pub fn voxelise_edges(grid: &Grid, forms: Forms, weight: SolidWeight) -> Program {
-    let [ball, hull] = forms.files("ball_fraction", "hull_fraction");
+    let [ball, hull] = forms.files("sphere_fraction", "polyhedron_fraction");
     base("voxelise_edges", grid)
         .slot("effective", effective(weight))
-        .slot("ball_fraction", ball)
-        .slot("hull_fraction", hull)
+        .slot("sphere_fraction", ball)
+        .slot("polyhedron_fraction", hull)
 }
 
 fn effective(weight: SolidWeight) -> &'static str {

@@ -1,7 +1,7 @@
 //! The effective solid fraction of a cell, from which the weight of the solid follows, in f64 (docs/src/theory/solids.md).
 
 use crate::{
-    exact::{ball_fraction, hull_fraction},
+    exact::{polyhedron_fraction, sphere_fraction},
     shapes::{cuboid, icosahedron, pebble, tetrahedron},
     tiling::{Placed, Tiling, centre, grid, rotation},
     voxelise::{GROWTH, both, fraction},
@@ -11,12 +11,12 @@ use kit::{Random, Workbench};
 use riprap::{geometry::HalfSpace, lattice::SolidWeight};
 
 /// Effective fractions of a polyhedron with the fraction `solid` in the cell around `r`: alone, and next to other parts.
-pub fn effective_hull(faces: &[HalfSpace], r: DVec3, solid: f64) -> [f64; 2] {
+pub fn effective_polyhedron(faces: &[HalfSpace], r: DVec3, solid: f64) -> [f64; 2] {
     if solid <= 0.0 {
         return [0.0; 2];
     }
     // Rounding is removed, since its fourth root would not be small.
-    let left = |face: &HalfSpace| match hull_fraction(std::slice::from_ref(face), r) {
+    let left = |face: &HalfSpace| match polyhedron_fraction(std::slice::from_ref(face), r) {
         left if left > 1.0 - 1e-12 => 1.0,
         left => left.max(1e-6),
     };
@@ -59,11 +59,11 @@ pub fn together(parts: &[(f64, [f64; 2])]) -> f64 {
 }
 
 /// Effective fraction of a sphere, whose radius grows by `growth` over the radius.
-pub fn effective_ball(radius: f64, growth: f64, r: DVec3) -> f64 {
+pub fn effective_sphere(radius: f64, growth: f64, r: DVec3) -> f64 {
     let radius = radius + growth / radius.max(2.0);
     match (r.abs() + 0.5).length() <= radius {
         true => 1.0,
-        false => ball_fraction(radius, r),
+        false => sphere_fraction(radius, r),
     }
 }
 
@@ -73,7 +73,7 @@ fn planes_at_right_angles() {
     let plane = |normal, distance| HalfSpace { normal, distance };
     let x = |left: f64| plane(DVec3::X, left - 0.5);
     let y = |left: f64| plane(DVec3::Y, left - 0.5);
-    let of = |planes: [HalfSpace; 2], solid| effective_hull(&planes, DVec3::ZERO, solid);
+    let of = |planes: [HalfSpace; 2], solid| effective_polyhedron(&planes, DVec3::ZERO, solid);
     let [mean, least] = of([x(0.25), y(0.75)], 0.25 * 0.75);
     assert!((least - 0.25).abs() < 1e-12, "{least}");
     let [a, b] = [3f64.powf(0.25), 3f64.powf(-0.25)];
@@ -103,7 +103,7 @@ fn flush_parts() {
                     plane(DVec3::Z, z - 0.5),
                 ];
                 let solid = of_x * of_y * z;
-                parts.push((solid, effective_hull(&faces, DVec3::ZERO, solid)));
+                parts.push((solid, effective_polyhedron(&faces, DVec3::ZERO, solid)));
             }
         }
         let found = together(&parts);
@@ -146,8 +146,8 @@ fn effective_fractions_of_edges_and_spheres() {
             let place = number * tiling.workgroup() + local;
             let share = shares[place];
             let expected = match placed.faces.is_empty() {
-                true => [effective_ball(placed.radius, GROWTH, r); 2],
-                false => effective_hull(&placed.faces, r, fraction(share)),
+                true => [effective_sphere(placed.radius, GROWTH, r); 2],
+                false => effective_polyhedron(&placed.faces, r, fraction(share)),
             };
             for (found, expected) in effective[2 * place..].iter().zip(expected) {
                 let found = f64::from(*found);

@@ -75,14 +75,14 @@ impl Solid {
 }
 
 /// Fraction of the unit cell around `centre` inside all `faces`.
-pub fn hull_fraction(faces: &[HalfSpace], centre: DVec3) -> f64 {
+pub fn polyhedron_fraction(faces: &[HalfSpace], centre: DVec3) -> f64 {
     let solid = faces.iter().fold(Solid::cell(centre), Solid::cut);
     solid.volume()
 }
 
 /// Fraction of the unit cell around `centre` inside the ball around the origin: sections across z, whose area is exact, by
 /// tanh-sinh quadrature (Takahasi & Mori 1974) between the heights at which the section changes its shape.
-pub fn ball_fraction(radius: f64, centre: DVec3) -> f64 {
+pub fn sphere_fraction(radius: f64, centre: DVec3) -> f64 {
     let (low, high) = (centre - 0.5, centre + 0.5);
     if DVec3::ZERO.clamp(low, high).length() >= radius {
         return 0.0;
@@ -146,7 +146,7 @@ fn cutting_is_exact() {
         normal: n.normalize(),
         distance: d / n.length() + n.normalize().dot(at),
     };
-    let share = |planes: &[HalfSpace]| hull_fraction(planes, at);
+    let share = |planes: &[HalfSpace]| polyhedron_fraction(planes, at);
     assert_near(share(&[]), 1.0, 1e-15);
     // A corner, all except a corner, a wedge, a slab, nothing.
     let corner = plane(DVec3::ONE, -1.0);
@@ -167,18 +167,18 @@ fn shares_of_balls_are_exact() {
     let volume = |radius: f64| 4.0 / 3.0 * PI * radius.powi(3);
     let check = |found: f64, exact: f64| assert_near(found, exact, 1e-13);
     // Inside the cell, an octant, half, a cap of height 0.2, without the six caps beyond the faces.
-    check(ball_fraction(0.4, DVec3::ZERO), volume(0.4));
-    check(ball_fraction(0.8, DVec3::splat(0.5)), volume(0.8) / 8.0);
+    check(sphere_fraction(0.4, DVec3::ZERO), volume(0.4));
+    check(sphere_fraction(0.8, DVec3::splat(0.5)), volume(0.8) / 8.0);
     check(
-        ball_fraction(0.3, DVec3::new(0.0, 0.5, 0.0)),
+        sphere_fraction(0.3, DVec3::new(0.0, 0.5, 0.0)),
         volume(0.3) / 2.0,
     );
     let cap = |radius: f64, height: f64| PI * height * height * (radius - height / 3.0);
     for at in [DVec3::X, DVec3::NEG_Y, DVec3::Z] {
-        check(ball_fraction(0.5, 0.8 * at), cap(0.5, 0.2));
+        check(sphere_fraction(0.5, 0.8 * at), cap(0.5, 0.2));
     }
     check(
-        ball_fraction(0.6, DVec3::ZERO),
+        sphere_fraction(0.6, DVec3::ZERO),
         volume(0.6) - 6.0 * cap(0.6, 0.1),
     );
     // The sum over all cells is the ball.
@@ -187,11 +187,11 @@ fn shares_of_balls_are_exact() {
         let range = || (-4..=4).map(f64::from);
         let cells = range().flat_map(|x| range().map(move |y| (x, y)));
         let cells = cells.flat_map(|(x, y)| range().map(move |z| DVec3::new(x, y, z)));
-        let sum: f64 = cells.map(|cell| ball_fraction(radius, cell + at)).sum();
+        let sum: f64 = cells.map(|cell| sphere_fraction(radius, cell + at)).sum();
         assert_relative(sum, volume(radius), 1e-13);
     }
     // So far from the centre that the surface is a plane up to 1 / 8R.
-    let share = ball_fraction(1e3, DVec3::new(0.0, 0.0, 1e3 - 0.1));
+    let share = sphere_fraction(1e3, DVec3::new(0.0, 0.0, 1e3 - 0.1));
     let mean_sagitta = 1.0 / (6.0 * 2e3);
     assert_near(share, 0.6 - mean_sagitta, 1e-8);
 }

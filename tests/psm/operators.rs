@@ -1,7 +1,7 @@
 //! Blocks placed in the fluid by [`SolidCells`], compared with the twin with exact solid fractions.
 
 use crate::{
-    effective::{effective_hull, together},
+    effective::{effective_polyhedron, together},
     fixture::Subject,
 };
 use glam::{DMat3, DQuat, DVec3};
@@ -50,7 +50,7 @@ impl Cuboid {
             let distance = 0.5 * self.size.dot(axis);
             [axis, -axis].map(|normal| HalfSpace { normal, distance })
         });
-        effective_hull(&faces.collect::<Vec<_>>(), centre - self.centre, share)
+        effective_polyhedron(&faces.collect::<Vec<_>>(), centre - self.centre, share)
     }
 
     /// Whether the box of half width `reach` around `centre` lies inside.

@@ -1,7 +1,7 @@
 //! Solid fractions against exact volumes.
 
 use crate::{
-    exact::{ball_fraction, hull_fraction},
+    exact::{polyhedron_fraction, sphere_fraction},
     shapes::{cuboid, icosahedron, pebble, rotations, tetrahedron},
     tiling::{Placed, Tiling, centre, grid, rotation},
 };
@@ -167,8 +167,8 @@ fn check_cells(tiling: &Tiling, shares: &[f32], most: f64) -> f64 {
             let exact = match placed.faces.is_empty() {
                 _ if outside => 0.0,
                 true if (r.abs() + 0.5).length() <= placed.radius => 1.0,
-                true => ball_fraction(placed.radius, r),
-                false => hull_fraction(&placed.faces, r),
+                true => sphere_fraction(placed.radius, r),
+                false => polyhedron_fraction(&placed.faces, r),
             };
             check_marks(placed, r, share, exact);
             let marks = [INTERIOR, NEAR, TOUCHES];

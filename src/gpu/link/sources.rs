@@ -26,8 +26,8 @@ pub const SOURCES: &[(&str, &str)] = sources! {
     "broadphase":
         "boxes", "found_count", "found_write", "pairs";
     "psm":
-        "angle", "axes", "ball_none", "ball_power", "ball_quick", "ball_fraction", "face_cell_load", "face_layer", "face_siblings", "face_sum_parallel", "face_sum_serial", "brick", "cell_load", "columns", "effective_surface", "effective_volume", "faces", "hull_none", "hull_quick",
-        "hull_fraction", "one_plane", "psm_planes", "reduce_blocks", "reduce_faces", "reduce_tiles", "combine_parts",
+        "angle", "axes", "sphere_none", "sphere_power", "sphere_quick", "sphere_fraction", "face_cell_load", "face_layer", "face_siblings", "face_sum_parallel", "face_sum_serial", "brick", "cell_load", "columns", "effective_surface", "effective_volume", "faces", "polyhedron_none", "polyhedron_quick",
+        "polyhedron_fraction", "one_plane", "psm_planes", "reduce_blocks", "reduce_faces", "reduce_tiles", "combine_parts",
         "several_planes", "solid_cell", "sum_faces", "sum_of_all", "tables", "joint_gap", "joint_closure", "tile_sum_parallel",
         "tile_sum_serial", "workgroup_index", "voxelise", "voxelise_edges", "wrench";
     "sph":

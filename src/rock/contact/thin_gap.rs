@@ -61,8 +61,8 @@ impl ThinGap {
         }
         let found = match (first.faces.is_empty(), second.faces.is_empty()) {
             (true, true) => Some(balls(first, second)),
-            (false, true) => ball_over_face(first, second),
-            (true, false) => ball_over_face(second, first).map(Self::swapped),
+            (false, true) => sphere_over_face(first, second),
+            (true, false) => sphere_over_face(second, first).map(Self::swapped),
             (false, false) => faces(first, second, range),
         };
         found.filter(|gap| gap.gap < range)
@@ -99,7 +99,7 @@ fn balls(a: &Placed, b: &Placed) -> ThinGap {
 }
 
 /// A sphere near a polyhedron, unless it is over an edge or a corner.
-fn ball_over_face(block: &Placed, ball: &Placed) -> Option<ThinGap> {
+fn sphere_over_face(block: &Placed, ball: &Placed) -> Option<ThinGap> {
     let near = sphere_polyhedron(block, ball);
     let normal = near.contact.normal;
     let over = |face: &crate::geometry::HalfSpace| face.normal.dot(normal) > OVER_FACE;

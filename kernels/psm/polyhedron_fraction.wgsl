@@ -2,7 +2,7 @@
 // needs tables, faces, several_planes, columns, $effective
 
 // r: the centre of the cell from the part's centroid.
-fn hull_fraction(part: Part, r: vec3<f32>) -> Fractions {
+fn polyhedron_fraction(part: Part, r: vec3<f32>) -> Fractions {
     var cuts = 0u;
     var planes = NO_CUTS;
     for (var k = 0u; k < part.faces; k++) {
@@ -20,7 +20,7 @@ fn hull_fraction(part: Part, r: vec3<f32>) -> Fractions {
         fraction = many_planes_volume(part, r);
     }
     let solid = select(0.0, fraction, fraction > EMPTY);
-    return Fractions(solid, effective_hull(part, r, solid));
+    return Fractions(solid, effective_polyhedron(part, r, solid));
 }
 
 // Volume by columns that are clipped by all faces of the part.

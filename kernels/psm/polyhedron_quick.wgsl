@@ -2,7 +2,7 @@
 // needs tables, faces, one_plane, joint_gap
 
 // r: the centre of the cell from the part's centroid.
-fn hull_quick(part: Part, r: vec3<f32>) -> f32 {
+fn polyhedron_quick(part: Part, r: vec3<f32>) -> f32 {
     if (any(r + 1.5 <= part.low) || any(r - 1.5 >= part.high)) {
         return 0.0;
     }

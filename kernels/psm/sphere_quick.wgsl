@@ -1,11 +1,11 @@
 // Whether a cell is inside a sphere, next to it, or on its surface.
-// needs tables, ball_power, $effective
+// needs tables, sphere_power, $effective
 
-fn ball_quick(part: Part, cell: vec3<i32>) -> f32 {
+fn sphere_quick(part: Part, cell: vec3<i32>) -> f32 {
     let far = abs(centre_from(cell, part.base, part.fraction));
     var outer = part;
     outer.radius = effective_radius(part.radius);
-    let power = ball_power(outer, cell);
+    let power = sphere_power(outer, cell);
     if (nearest_power(power, far, 1.5) <= 0.0) {
         return 0.0;
     }

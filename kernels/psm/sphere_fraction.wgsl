@@ -6,7 +6,7 @@
 //     G = sum of +-a [ integral of (C - F) / rho^2 along the part of the edge in the sphere ] + C (angle of the rest),
 // where a is the distance of the edge from the axis. Away from the axis C = 0: the surface adds nothing. Near it C = F(t),
 // which makes the integrand (t + u) / 4 + (t - u)^2 / (12 (R + h)). All terms are of the size of a cell: there is no cancellation.
-// needs tables, axes, ball_power, angle, $effective
+// needs tables, axes, sphere_power, angle, $effective
 
 // Squared distance from the axis, cells^2, below which a square is near it; for spheres of more than 4 cells, the radius.
 const AXIS = 4.0;
@@ -14,7 +14,7 @@ const AXIS = 4.0;
 const SMALL = 3.0;
 const TINY = 1e-30;
 // Solid fraction within rounding of zero.
-const BALL_EMPTY = 1e-6;
+const SPHERE_EMPTY = 1e-6;
 
 // The cross-section of a cell at the height z over the sphere's equator; edges in the order right, left, upper, lower.
 struct Square {
@@ -32,13 +32,13 @@ struct Square {
 
 const SIDES = vec4(1.0, -1.0, 1.0, -1.0);
 
-fn ball_fraction(part: Part, cell: vec3<i32>) -> Fractions {
-    // A loop, so that compilers do not inline ball_volume twice.
+fn sphere_fraction(part: Part, cell: vec3<i32>) -> Fractions {
+    // A loop, so that compilers do not inline sphere_volume twice.
     var ball = part;
     var solid = 0.0;
     var effective = 0.0;
     for (var n = 0u; n < 2u; n++) {
-        effective = ball_volume(ball, cell);
+        effective = sphere_volume(ball, cell);
         let outer = effective_radius(ball.radius);
         if (n == 0u) {
             solid = effective;
@@ -51,11 +51,11 @@ fn ball_fraction(part: Part, cell: vec3<i32>) -> Fractions {
     return Fractions(solid, vec2(effective));
 }
 
-fn ball_volume(part: Part, cell: vec3<i32>) -> f32 {
+fn sphere_volume(part: Part, cell: vec3<i32>) -> f32 {
     // By symmetry, mapped to the octant of positive coordinates.
     let far = abs(centre_from(cell, part.base, part.fraction));
     let at = permuted(far, main_axis(far));
-    let power = ball_power(part, cell);
+    let power = sphere_power(part, cell);
     // A cell around the centre of the sphere extends to both sides of the equator.
     let middle = at.z < 0.5;
     var fraction = 0.0;
@@ -77,7 +77,7 @@ fn ball_volume(part: Part, cell: vec3<i32>) -> f32 {
         }
         fraction += weight * volume_above(at.xy, z, middle_power, part.radius);
     }
-    return select(0.0, min(fraction, 1.0), fraction > BALL_EMPTY);
+    return select(0.0, min(fraction, 1.0), fraction > SPHERE_EMPTY);
 }
 
 // at: middle of the square from the axis; power: the power of this middle.

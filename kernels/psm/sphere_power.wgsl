@@ -6,7 +6,7 @@ const MAX_WHOLE_RADIUS = 16384.0;
 
 // Whole cells and fractions of a cell are multiplied separately: the squares that cancel are exact, so that the error is
 // 1e-7 R, not 1e-7 R^2.
-fn ball_power(part: Part, cell: vec3<i32>) -> f32 {
+fn sphere_power(part: Part, cell: vec3<i32>) -> f32 {
     let whole = cell - part.base;
     let n = vec3<f32>(whole);
     let f = 0.5 - part.fraction;

@@ -1,0 +1,10 @@
+// All parts are spheres.
+// needs tables
+
+fn polyhedron_quick(part: Part, r: vec3<f32>) -> f32 {
+    return 0.0;
+}
+
+fn polyhedron_fraction(part: Part, r: vec3<f32>) -> Fractions {
+    return Fractions(0.0, vec2(0.0));
+}

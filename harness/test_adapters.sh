@@ -15,7 +15,7 @@ trap 'rm -f "$log"' EXIT
 # Each line: a test program, and modules or names of its tests.
 filters=(
     "gpu lost_device:: memory:: timer::"
-    "lattice divergence_guard::s kernels:: limits::"
+    "lattice divergence_guard::s kernels:: limits:: refusals::"
     "psm combine_solids:: faces:: null_model:: reduce:: tile_search:: twin_step:: voxelise::"
     "sph mueller:: refusals:: step::"
     "rock broadphase::"

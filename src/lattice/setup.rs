@@ -194,7 +194,7 @@ pub struct Setup {
     /// WALE constant; `None` is laminar.
     pub wale: Option<f64>,
     /// Steps from one evaluation of the eddy viscosity to the next: 1 or 2. With 2, odd steps reuse that of the step before
-    /// and store their velocity for the next one: a step on a CPU takes a tenth less time, and a cell 8 bytes less.
+    /// and store their velocity for the next one, and a cell takes 8 bytes less.
     pub wale_interval: u32,
     /// Law of the wall for the friction of walls at rest, static solids and grid-aligned faces of blocks, if a wall is plane and
     /// has five cells of fluid in front of it; no slip elsewhere. It needs `wale`. `None`: no code for it.

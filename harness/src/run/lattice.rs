@@ -28,8 +28,10 @@ pub struct LatticeSummary {
     /// Copy bandwidth of the device, read and written bytes per second.
     pub bandwidth: f64,
     /// Bytes that a step moves per fluid cell away from walls.
+    #[serde(rename = "bytes_a_cell")]
     pub bytes_per_cell: u64,
     /// Bytes that a step moves in all.
+    #[serde(rename = "bytes_a_step")]
     pub bytes_per_step: u64,
     /// Fraction of that bandwidth that the steps use.
     pub bandwidth_share: f64,

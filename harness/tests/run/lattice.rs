@@ -126,6 +126,10 @@ fn the_couette_scene_writes_what_it_asks_for() {
     );
     let lattice = summary.lattice.unwrap();
     assert_eq!((lattice.fluid_cells, lattice.bytes_per_cell), (2048, 216));
+    // The keys of summary.json are a public interface.
+    let keys = serde_json::to_value(&lattice).unwrap();
+    assert_eq!(keys["bytes_a_cell"], 216);
+    assert!(keys["bytes_a_step"].is_u64());
     assert!(lattice.mlups > 0.0 && lattice.bandwidth_share > 0.0);
     // The plate has Mach 0.1, the fluid next to it less.
     let mach = lattice.max_mach;

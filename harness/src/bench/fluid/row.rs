@@ -35,8 +35,10 @@ pub struct Row {
     /// Million cells per second of wall time.
     pub mlups_wall: f64,
     /// Bytes that a step moves per cell away from walls.
+    #[serde(rename = "bytes_a_cell")]
     pub bytes_per_cell: u64,
     /// Total bytes that a step moves.
+    #[serde(rename = "bytes_a_step")]
     pub bytes_per_step: u64,
     /// Counted bytes per second, on the time base of `mlups`.
     pub bandwidth: f64,

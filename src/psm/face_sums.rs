@@ -27,7 +27,7 @@ const REACH: f64 = 1.9;
 pub(super) struct FaceSums {
     /// Blocks that request them, in the order of the device, ascending.
     pub requested: Vec<usize>,
-    walk: CellMapping,
+    mapping: CellMapping,
     reduce: Kernel,
     sum: Kernel,
     binds: Option<[wgpu::BindGroup; 2]>,
@@ -42,16 +42,16 @@ impl FaceSums {
     pub fn new(
         device: &wgpu::Device,
         lattice: &Lattice,
-        walk: CellMapping,
+        mapping: CellMapping,
         requested: Vec<usize>,
     ) -> Result<Self> {
         let grid = lattice.grid();
-        let linked = program::spread(program::reduce_faces(grid, walk), lattice).link()?;
+        let linked = program::spread(program::reduce_faces(grid, mapping), lattice).link()?;
         let mut constants = linked.constants_of(&program::constants(grid));
         constants.push(("VISCOSITY", lattice.setup().nu));
         Ok(Self {
             requested,
-            walk,
+            mapping,
             reduce: Kernel::new(device, &linked, "reduce_faces", &constants)?,
             sum: Kernel::new(device, &program::sum_faces().link()?, "sum_faces", &[])?,
             binds: None,
@@ -146,7 +146,7 @@ impl FaceSums {
             return;
         };
         if !self.jobs.is_empty() {
-            let groups = self.walk.groups(self.jobs.len() as u32);
+            let groups = self.mapping.groups(self.jobs.len() as u32);
             self.reduce.record(pass, reduce, groups);
         }
         let numbers = self.count() as u32;

@@ -109,7 +109,7 @@ pub(super) struct Kernels {
     workgroup: u64,
     /// Workgroups of the coming dispatches, in the order of `KERNELS`.
     groups: [u32; 5],
-    pub walk: CellMapping,
+    pub mapping: CellMapping,
     /// Largest number of cells per invocation of `voxelise_edges`.
     at_once: u64,
 }
@@ -120,16 +120,16 @@ impl Kernels {
         let grid = lattice.grid();
         // Barriers are slow on a CPU, which processes the invocations of a workgroup one after the other.
         let processor = lattice.setup().processor;
-        let walk = match processor.unwrap_or_else(|| Processor::of(&device.adapter_info())) {
+        let mapping = match processor.unwrap_or_else(|| Processor::of(&device.adapter_info())) {
             Processor::Cpu => CellMapping::Serial,
             Processor::Gpu => CellMapping::Parallel,
         };
         let weight = lattice.setup().weight();
         let programs = [
-            program::voxelise(grid, walk, forms, weight),
+            program::voxelise(grid, mapping, forms, weight),
             program::voxelise_edges(grid, forms, weight),
-            program::spread(program::combine_parts(grid, walk), lattice),
-            program::spread(program::reduce_tiles(grid, walk), lattice),
+            program::spread(program::combine_parts(grid, mapping), lattice),
+            program::spread(program::reduce_tiles(grid, mapping), lattice),
             program::reduce_blocks(),
         ];
         let mut constants = program::constants(grid);
@@ -148,7 +148,7 @@ impl Kernels {
             buffers: NAMES.map(|name| Growing::new(device, name)).into(),
             workgroup: grid.brick.iter().map(|&n| u64::from(n)).product(),
             groups: [0; 5],
-            walk,
+            mapping,
             at_once: (MAX_LOOP_ITERATIONS / loop_iterations(faces)).clamp(1, CELLS_PER_EDGE),
         };
         kernels.bind(device, lattice)?;
@@ -189,8 +189,10 @@ impl Kernels {
             words(tiles + MAX_FOLD_SURPLUS),
             words(plan.lane_count() + MAX_FOLD_SURPLUS),
             words(tiles) * self.workgroup + 4,
-            words(tiles.next_multiple_of(self.walk.segments_per_workgroup()))
-                + words(self.walk.segments_per_workgroup() * tiles.div_ceil(MAX_GROUPS as usize)),
+            words(tiles.next_multiple_of(self.mapping.segments_per_workgroup()))
+                + words(
+                    self.mapping.segments_per_workgroup() * tiles.div_ceil(MAX_GROUPS as usize),
+                ),
         ];
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
             buffer.hold(device, bytes)?;
@@ -253,12 +255,12 @@ impl Kernels {
 
     /// Sets the work of the sums.
     pub fn set_sums(&mut self, queue: &wgpu::Queue, mut segments: Vec<u32>, block_first: &[u32]) {
-        self.groups[3] = self.walk.groups(segments.len() as u32);
+        self.groups[3] = self.mapping.groups(segments.len() as u32);
         self.groups[4] = block_first.len() as u32 - 1;
         pad(
             &mut segments,
             self.groups[3],
-            self.walk.segments_per_workgroup(),
+            self.mapping.segments_per_workgroup(),
         );
         for (name, list) in [("segments", &segments[..]), ("block_first", block_first)] {
             queue.write_buffer(self.buffer(name), 0, bytemuck::cast_slice(list));

@@ -86,9 +86,9 @@ impl CellMapping {
 
 /// `voxelise`: one workgroup per tile of `work`. Binds `work`, `tiles`, `parts`, `faces`, `solid_fractions`, `edges`, whose
 /// first word must be 0 before, and which is one word longer than `solid_fractions`.
-pub fn voxelise(grid: &Grid, walk: CellMapping, forms: Forms, weight: SolidWeight) -> Program {
+pub fn voxelise(grid: &Grid, mapping: CellMapping, forms: Forms, weight: SolidWeight) -> Program {
     let [ball, hull] = forms.files("sphere_quick", "polyhedron_quick");
-    walked("voxelise", grid, walk)
+    mapped("voxelise", grid, mapping)
         .slot("effective", effective(weight))
         .slot("sphere_quick", ball)
         .slot("polyhedron_quick", hull)
@@ -129,15 +129,15 @@ pub(super) fn spread(program: Program, lattice: &Lattice) -> Program {
 
 /// `combine_parts`: one workgroup per lane of a brick with blocks, slot · lanes + lane, of `work`. Binds `work`, `tiles`,
 /// `motions`, `lane_first`, `lane_tiles`, `solid_fractions`, `psm_planes_0`.
-pub fn combine_parts(grid: &Grid, walk: CellMapping) -> Program {
-    walked("combine_parts", grid, walk)
+pub fn combine_parts(grid: &Grid, mapping: CellMapping) -> Program {
+    mapped("combine_parts", grid, mapping)
 }
 
 /// `reduce_tiles`: [`CellMapping::groups`] workgroups. Binds `tiles`, `motions`, `solid_fractions`, `psm_planes_0`, `segments`,
 /// and `partials`, [`super::WRENCH`] numbers per segment. A segment is a range of consecutive tiles of one block: the number
 /// of the first + 2²⁸ · (their count - 1), or all bits for none.
-pub fn reduce_tiles(grid: &Grid, walk: CellMapping) -> Program {
-    let file = match walk {
+pub fn reduce_tiles(grid: &Grid, mapping: CellMapping) -> Program {
+    let file = match mapping {
         CellMapping::Serial => "tile_sum_serial",
         CellMapping::Parallel => "tile_sum_parallel",
     };
@@ -155,8 +155,8 @@ pub fn reduce_blocks() -> Program {
 /// a face in sequence), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers per job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
-pub fn reduce_faces(grid: &Grid, walk: CellMapping) -> Program {
-    let file = match walk {
+pub fn reduce_faces(grid: &Grid, mapping: CellMapping) -> Program {
+    let file = match mapping {
         CellMapping::Serial => "face_sum_serial",
         CellMapping::Parallel => "face_sum_parallel",
     };
@@ -187,9 +187,9 @@ fn base(entry: &str, grid: &Grid) -> Program {
 }
 
 /// The same of a kernel whose invocations share the cells of a tile.
-fn walked(entry: &str, grid: &Grid, walk: CellMapping) -> Program {
+fn mapped(entry: &str, grid: &Grid, mapping: CellMapping) -> Program {
     let cells = cells(grid);
-    let invocations = match walk {
+    let invocations = match mapping {
         CellMapping::Serial => cells.min(VECTOR),
         CellMapping::Parallel => cells,
     };

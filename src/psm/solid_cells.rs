@@ -145,7 +145,7 @@ impl SolidCells {
         let kernels = Kernels::new(device, lattice, forms, most)?;
         let face_sums = match requested.is_empty() {
             true => None,
-            false => Some(FaceSums::new(device, lattice, kernels.walk, requested)?),
+            false => Some(FaceSums::new(device, lattice, kernels.mapping, requested)?),
         };
         let parts = first_face.len() - 1;
         Ok(Self {
@@ -368,7 +368,7 @@ impl SolidCells {
         for (name, bytes) in lists {
             queue.write_buffer(self.kernels.buffer(name), 0, bytes);
         }
-        let most = self.kernels.walk.segment(plan.block_first[self.loaded]);
+        let most = self.kernels.mapping.segment(plan.block_first[self.loaded]);
         let (segments, block_first) = plan.segments(self.loaded, most);
         self.kernels.set_sums(queue, segments, &block_first);
     }

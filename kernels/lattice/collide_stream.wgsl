@@ -1,7 +1,7 @@
 // d'Humieres et al. 2002, Phil. Trans. R. Soc. A 360:437, eq. 1: f* = f + M^-1 S M (f_eq - f) + source, and streaming.
 // One fused step of the fluid: load, transform to moments, collide, transform back, store. In moments h the step adds
 // R (h_eq - h - s/2) + s with the rates R and the moments s of the body force.
-// needs moments, stream, velocity, $bricks, $cell_flags, $psm, $equilibrium, $eddy, $force, $relax, $store_velocity, $guard, workgroup
+// needs moments, stream, velocity, $bricks, $cell_flags, $psm, $equilibrium, $eddy, $force, $relax, $store_velocity, $guard, $sampling, workgroup
 
 @compute @workgroup_size(WORKGROUP)
 fn collide_stream(
@@ -25,7 +25,8 @@ fn collide_stream(
     var f = load(p);
     var h = f;
     to_moments(&h);
-    let rho = 1.0 + h[0u];
+    let excess = h[0u];
+    let rho = 1.0 + excess;
     let u = fluid_velocity(p, rho, vec3_of(h[1u], h[3u], h[9u]));
     guard(p, out_of_range(cell, rho, u), index == 0u && local == 0u);
     store_velocity(p, cell, mean_velocity(psm, u));
@@ -37,6 +38,8 @@ fn collide_stream(
     // Only the change is transformed back from moments: its round-off is relative to the change, not to
     // f, so that weak forces are not lost in the round-off of f.
     let weights = collide_with_solid(p, index, local, cell, psm, tau_excess, third_order_rate(cell, psm, shear_rate), rho, u, &h);
+    let zero = Real(0.0);
+    add_sample(p, cell, excess, velocity_at_middle(weights, rho, u, fluid_velocity(p, rho, Vector(zero, zero, zero)), &h));
     var change: array<Real, 27>;
     relax(cell, psm, shear_rate, &d, &change);
     add_source(p, u, &change);

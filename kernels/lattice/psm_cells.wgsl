@@ -130,6 +130,23 @@ fn blend_with_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>
     }
 }
 
+// Noble & Torczynski 1998, eq. 4: the velocity in the middle of the step, after half of the body force on the fluid and half of
+// the change by the solid, as velocity_psm.wgsl has it for the step before.
+fn velocity_at_middle(
+    weights: SolidWeights,
+    rho: Real,
+    u: Vector,
+    by_half_force: Vector,
+    solid: ptr<function, array<Real, 27>>,
+) -> Vector {
+    let half = 0.5 / rho;
+    return Vector(
+        u.x + weights.momentum * (half * (*solid)[1u] - by_half_force.x),
+        u.y + weights.momentum * (half * (*solid)[3u] - by_half_force.y),
+        u.z + weights.momentum * (half * (*solid)[9u] - by_half_force.z),
+    );
+}
+
 // Where `here`, adds half the tangential momentum that returns from a wall, the sum of f c over the directions that leave the
 // wall. In a full cell at a wall, the wall friction of the lattice acts on no block by itself: it is applied to the
 // block, in full in a closed joint and less as the joint opens.

@@ -38,3 +38,14 @@ fn collide_with_solid(
 
 fn blend_with_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
 }
+
+// The velocity in the middle of the step.
+fn velocity_at_middle(
+    weights: SolidWeights,
+    rho: Real,
+    u: Vector,
+    by_half_force: Vector,
+    solid: ptr<function, array<Real, 27>>,
+) -> Vector {
+    return u;
+}

@@ -56,3 +56,14 @@ fn blend_with_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>
         (*change)[k] += weights.all * ((*solid)[k] - (*change)[k]);
     }
 }
+
+// The velocity of the statistics: as the fields show it, without the change by the solid.
+fn velocity_at_middle(
+    weights: SolidWeights,
+    rho: Real,
+    u: Vector,
+    by_half_force: Vector,
+    solid: ptr<function, array<Real, 27>>,
+) -> Vector {
+    return u;
+}

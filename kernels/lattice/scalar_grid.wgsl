@@ -57,6 +57,15 @@ fn scalar_of(cell: vec3<u32>) -> u32 {
     return at.x * LANES_OF_ELEMENT + at.y;
 }
 
+// The padded cell of a scalar.
+fn cell_of_scalar(n: u32) -> vec3<u32> {
+    let element = n / LANES_OF_ELEMENT;
+    let lane = n % LANES_OF_ELEMENT;
+    let y = (element / NX) % NY + NY * (lane % LANES_Y);
+    let z = element / (NX * NY) + NZ * (lane / LANES_Y);
+    return vec3(element % NX, y, z);
+}
+
 fn opposite(q: u32) -> u32 {
     return select(((q - 1u) ^ 1u) + 1u, 0u, q == 0u);
 }

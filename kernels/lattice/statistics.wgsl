@@ -1,11 +1,9 @@
 // Chan, Golub & LeVeque 1983, Am. Stat. 37:242, eqs. 2.1: means and covariances over time of density and velocity, from
-// blocks of samples that are shifted by the mean so far.
-// needs scalar_grid, $sample
+// blocks of samples that are shifted by the mean so far. For single cells: the first sample, the end of a block, output, and
+// samples of the fields of an observer.
+// needs scalar_grid, sum_sample, $sample
 
 @group(0) @binding(54) var<storage, read_write> derived: array<f32>;
-// For each group of 64 cells of the pass in turn: 4 means, 7 covariances, and for the open block 4 sums and 7 sums of
-// products. The values of an invocation lie close together.
-@group(0) @binding(56) var<storage, read_write> statistics: array<f32>;
 
 struct StatisticsPass {
     // The plane that is written to `derived`.
@@ -19,34 +17,38 @@ struct StatisticsPass {
 
 @group(0) @binding(57) var<uniform> statistics_pass: StatisticsPass;
 
-const PLANES = 22u;
-const SUMS = 11u;
-const PRODUCTS = 15u;
-
-fn place(plane: u32, n: u32) -> u32 {
-    return (n / 64u * PLANES + plane) * 64u + n % 64u;
-}
-
-// The two factors of covariance k: density, xx, yy, zz, xy, yz, xz.
+// The two factors of covariance k.
 fn factors(k: u32) -> vec2<u32> {
     return select(vec2(k), vec2(k - 3u, k % 3u + 1u), k > 3u);
 }
 
 // A mean or covariance including the samples of the open block.
 fn merged(plane: u32, n: u32) -> f32 {
-    let before = statistics[place(plane, n)];
+    let before = read_statistic(plane, n);
     let samples = statistics_pass.samples;
     let weight = statistics_pass.weight;
     if (samples == 0.0) {
         return before;
     }
     if (plane < 4u) {
-        return before + weight * statistics[place(SUMS + plane, n)] / samples;
+        return before + weight * read_statistic(SUMS + plane, n) / samples;
     }
     let pair = factors(plane - 4u);
-    let shift = statistics[place(SUMS + pair.x, n)] / samples * (statistics[place(SUMS + pair.y, n)] / samples);
-    let own = statistics[place(PRODUCTS + plane - 4u, n)] / samples - shift;
+    let shift = read_statistic(SUMS + pair.x, n) / samples * (read_statistic(SUMS + pair.y, n) / samples);
+    let own = read_statistic(PRODUCTS + plane - 4u, n) / samples - shift;
     return before + weight * (own + (1.0 - weight) * shift - before);
+}
+
+// A domain cell by its place among the scalars.
+struct Listed {
+    scalar: u32,
+    cell: vec3<u32>,
+    outside: bool,
+}
+
+fn listed_cell(n: u32) -> Listed {
+    let cell = cell_of_scalar(n);
+    return Listed(n, cell, n >= NX * NY * NZ * LANES_OF_ELEMENT || any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z)));
 }
 
 // The first sample is the mean so far.
@@ -56,39 +58,31 @@ fn begin_statistics(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
-    if (n >= cell_pass.end - cell_pass.first) {
+    let at = listed_cell(invocation(group, groups, local));
+    if (at.outside) {
         return;
     }
-    let x = sample(cell_pass.first + n);
+    let x = sample(at.cell);
     for (var k = 0u; k < 4u; k++) { // unroll
-        statistics[place(k, n)] = x[k];
+        set_statistic(k, at.scalar, x[k]);
     }
     for (var k = 4u; k < 22u; k++) { // unroll
-        statistics[place(k, n)] = 0.0;
+        set_statistic(k, at.scalar, 0.0);
     }
 }
 
 @compute @workgroup_size(64)
-fn add_sample(
+fn add_observed(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
-    if (n >= cell_pass.end - cell_pass.first) {
+    let at = listed_cell(invocation(group, groups, local));
+    if (at.outside) {
         return;
     }
-    let x = sample(cell_pass.first + n);
-    var z = vec4(0.0);
-    for (var k = 0u; k < 4u; k++) { // unroll
-        z[k] = x[k] - statistics[place(k, n)];
-        statistics[place(SUMS + k, n)] += z[k];
-    }
-    for (var k = 0u; k < 7u; k++) { // unroll
-        let pair = factors(k);
-        statistics[place(PRODUCTS + k, n)] += z[pair.x] * z[pair.y];
-    }
+    let x = sample(at.cell);
+    sum_sample(at.scalar, Sample(x.x, x.y, x.z, x.w));
 }
 
 // Closes the block.
@@ -98,15 +92,15 @@ fn merge_block(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
-    if (n >= cell_pass.end - cell_pass.first) {
+    let at = listed_cell(invocation(group, groups, local));
+    if (at.outside) {
         return;
     }
     for (var k = 0u; k < 11u; k++) { // unroll
-        statistics[place(k, n)] = merged(k, n);
+        set_statistic(k, at.scalar, merged(k, at.scalar));
     }
     for (var k = 11u; k < 22u; k++) { // unroll
-        statistics[place(k, n)] = 0.0;
+        set_statistic(k, at.scalar, 0.0);
     }
 }
 
@@ -117,9 +111,9 @@ fn write_statistic(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let n = invocation(group, groups, local);
-    if (n >= cell_pass.end - cell_pass.first) {
+    let at = listed_cell(invocation(group, groups, local));
+    if (at.outside) {
         return;
     }
-    derived[cell_pass.first + n] = merged(statistics_pass.plane, n);
+    derived[at.cell.x + CELLS_X * (at.cell.y + CELLS_Y * at.cell.z)] = merged(statistics_pass.plane, at.scalar);
 }

@@ -178,6 +178,7 @@ impl Lattice {
         }
         self.step += 1;
         self.closed = false;
+        self.streams.samples = false;
     }
 
     /// Sets the bricks, numbered as in [`Grid::bricks`] with x fastest, that the kernel for blocks computes;

@@ -1,7 +1,8 @@
 //! What a fluid takes on a device, and over how many bindings it is spread.
 
 use super::{
-    Bindings, Face, Force, Grid, PSM_PLANES, Setup, Storage, populations::Q, surface, traffic,
+    Bindings, Face, Force, Grid, PSM_PLANES, STATISTICS_PLANES, Setup, Storage, populations::Q,
+    surface, traffic,
 };
 use crate::{Error, Result, gpu::kernel::largest_binding};
 
@@ -130,6 +131,7 @@ impl Room<'_> {
             populations,
             vectors,
             psm_planes,
+            statistics: 0,
         })
     }
 
@@ -145,6 +147,38 @@ impl Room<'_> {
         }
         fits
     }
+}
+
+/// Bindings of the sums of statistics over time, in kernels with so many others.
+///
+/// # Errors
+/// [`Error::Limit`] if the device has too few for so many cells.
+pub(super) fn statistics_bindings(
+    setup: &Setup,
+    grid: &Grid,
+    limits: &wgpu::Limits,
+    others: u32,
+) -> Result<u32> {
+    let room = Room {
+        setup,
+        binding: largest_binding(limits),
+        buffers: limits.max_storage_buffers_per_shader_stage,
+    };
+    let plane = 4 * u64::from(grid.scalar_count());
+    let wanted = room
+        .bindings(STATISTICS_PLANES, plane)
+        .unwrap_or(STATISTICS_PLANES);
+    let (wants, has) = match others + wanted <= room.buffers {
+        true if plane <= room.binding => return Ok(wanted),
+        true => (plane, room.binding),
+        false => ((others + wanted).into(), room.buffers.into()),
+    };
+    Err(Error::Limit {
+        name: "storage buffers per shader stage, or bytes of one, for statistics over time".into(),
+        wants,
+        has,
+        remedy: "use a larger cell, request no statistics of fields, or use another adapter".into(),
+    })
 }
 
 /// The bytes that a fluid takes, spread so that the limits hold.
@@ -206,6 +240,7 @@ pub fn memory(setup: &Setup, grid: &Grid, limits: &wgpu::Limits) -> Result<Memor
         populations,
         vectors,
         psm_planes,
+        ..
     } = bindings;
     let [slots, fractions] = surface::bytes(setup, grid);
     let others = [

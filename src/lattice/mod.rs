@@ -79,7 +79,7 @@ pub use setup::{
     Collision, Equilibrium, Face, Force, Rates, Setup, SolidOperator, SolidWeight, Storage,
     SurfaceCell, WallModel,
 };
-pub use spread::{Bindings, PSM_PLANES};
+pub use spread::{Bindings, PSM_PLANES, STATISTICS_PLANES};
 #[doc(hidden)]
 pub use spread::{PsmAccess, psm_storage};
 pub use stages::Stages;

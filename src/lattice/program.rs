@@ -37,6 +37,10 @@ fn base(entry: &str, setup: &Setup, bindings: Bindings) -> Program {
         )
         .text("forces", spread::forces(bindings.vectors, false))
         .text(
+            "statistics_planes",
+            spread::statistics(bindings.statistics, false),
+        )
+        .text(
             "psm_storage",
             psm_storage(bindings.psm_planes, PsmAccess::Elements),
         );
@@ -62,7 +66,8 @@ fn base(entry: &str, setup: &Setup, bindings: Bindings) -> Program {
     }
 }
 
-/// The fused collision and streaming of a setup.
+/// The fused collision and streaming of a setup; with bindings for statistics over time it adds the state before the step to
+/// these.
 pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickKind) -> Program {
     let either = |condition, yes, no| if condition { yes } else { no };
     let with_solids = matches!(kind, BrickKind::Surface | BrickKind::Psm);
@@ -75,7 +80,8 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
             SolidOperator::Noble => "operator_noble",
             SolidOperator::Superposition => "operator_superposition",
         });
-    let program = base("collide_stream", setup, bindings.into());
+    let bindings = bindings.into();
+    let program = base("collide_stream", setup, bindings);
     let program = match operator {
         Some(operator) => program
             .slot(
@@ -158,6 +164,10 @@ pub fn collide_stream(setup: &Setup, bindings: impl Into<Bindings>, kind: BrickK
             "guard",
             either(setup.max_speed > 0.0, "guard_on", "guard_none"),
         )
+        .slot(
+            "sampling",
+            either(bindings.statistics > 0, "sampling_sums", "sampling_none"),
+        )
 }
 
 /// A kernel of a setup for single cells: at walls and faces, at the start, for output.
@@ -192,6 +202,10 @@ pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -
         )
         .text("forces", spread::forces(bindings.vectors, true))
         .text(
+            "statistics_planes",
+            spread::statistics(bindings.statistics, true),
+        )
+        .text(
             "psm_storage",
             psm_storage(bindings.psm_planes, PsmAccess::Cells),
         )
@@ -200,6 +214,7 @@ pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -
             psm_storage(bindings.psm_planes, PsmAccess::WrittenCells),
         )
         .slot("lanes", "lanes_1")
+        .slot("reals", "reals_direct")
         .slot("neighbour_flags", flags)
         .slot("equilibrium", equilibrium(setup.equilibrium))
         .slot("cell_force", force)

@@ -12,6 +12,8 @@ pub struct Bindings {
     pub vectors: u32,
     /// Of the fields of blocks, [`PSM_PLANES`] planes.
     pub psm_planes: u32,
+    /// Of the sums of statistics over time, [`STATISTICS_PLANES`] planes; 0 without statistics.
+    pub statistics: u32,
 }
 
 /// The given number of bindings for the populations, and one for each other field.
@@ -21,6 +23,7 @@ impl From<u32> for Bindings {
             populations,
             vectors: 1,
             psm_planes: 1,
+            statistics: 0,
         }
     }
 }
@@ -28,7 +31,10 @@ impl From<u32> for Bindings {
 /// Number of values per cell of a brick with blocks.
 pub const PSM_PLANES: u32 = 10;
 
-/// Names of the bindings of those planes.
+/// Numbers per cell of statistics over time: 4 means, 7 covariances, and for the open block 4 sums and 7 sums of products.
+pub const STATISTICS_PLANES: u32 = 22;
+
+/// Names of the bindings of the planes of blocks.
 pub(super) const PSM_NAMES: [&str; PSM_PLANES as usize] = [
     "psm_planes_0",
     "psm_planes_1",
@@ -176,6 +182,30 @@ pub(super) fn forces(bindings: u32, scalars: bool) -> String {
     let text = field.text(&planes(3, bindings), |own| vector(own, count));
     format!("// needs {needs}\n{text}")
 }
+
+/// `read_statistic(s, e)` and `set_statistic(s, e, word)`: plane s of the statistics over time, of an element or, with
+/// `scalars`, of a cell.
+pub(super) fn statistics(bindings: u32, scalars: bool) -> String {
+    let (count, needs) = match scalars {
+        true => (SCALARS, "scalar_grid, $reals"),
+        false => (ELEMENTS, "grid, $reals"),
+    };
+    let field = Field {
+        name: STATISTICS_NAME,
+        binding: 80,
+        word: "Reals",
+        parameters: "e: u32",
+        read: Some("read_statistic"),
+        write: Some("set_statistic"),
+    };
+    let text = field.text(&planes(STATISTICS_PLANES, bindings), |own| {
+        vector(own, count)
+    });
+    format!("// needs {needs}\n{text}")
+}
+
+/// Name of the bindings of statistics, which are numbered from 0.
+pub(super) const STATISTICS_NAME: &str = "statistics";
 
 /// Elements of the grid, and its scalars.
 pub(super) const ELEMENTS: &str = "NX * NY * NZ";

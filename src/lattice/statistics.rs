@@ -1,30 +1,24 @@
 //! Means and covariances over time of density and velocity, on the device.
 
 use super::{
-    CellPass, Lattice, Observer,
+    Bindings, CellPass, Lattice, Observer, STATISTICS_PLANES,
     cell_kernels::{CellDispatch, uniform},
     fluid::Dispatch,
     gather::Gather,
+    memory::{memory, statistics_bindings},
+    program,
+    spread::{STATISTICS_NAME, planes},
 };
 use crate::{
     Error, Result,
-    gpu::{buffers::zeroed, kernel::largest_binding, link::Program, readback::Readback},
+    gpu::{buffers::zeroed, link::Program, readback::Readback},
 };
 use bytemuck::{Pod, Zeroable};
-use std::ops::Range;
 
 /// Number of samples per block.
 const BLOCK: u64 = 256;
-/// Numbers per cell: 4 means, 7 covariances, and as many sums of the open block.
-const PLANES: usize = 22;
-
-/// Number of cells whose values are stored together, as in `kernels/lattice/statistics.wgsl`.
-const GROUP: usize = 64;
-
-/// Index of the value `plane` of cell `n` of a part.
-fn place(plane: usize, n: usize) -> usize {
-    (n / GROUP * PLANES + plane) * GROUP + n % GROUP
-}
+/// Numbers per cell.
+const PLANES: usize = STATISTICS_PLANES as usize;
 
 /// A mean or a covariance over time, lattice units.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,15 +78,21 @@ pub struct StatisticsState {
     pub values: Vec<f32>,
 }
 
-/// Number of cells per buffer.
+/// Where samples come from.
 #[derive(Debug)]
-struct Part {
-    cells: Range<u32>,
-    buffer: wgpu::Buffer,
-    /// Kernels of the first sample, after an even and after an odd number of steps.
-    begin: [Dispatch; 2],
-    /// Kernels of the other samples.
-    add: [Dispatch; 2],
+enum Source {
+    /// The kernels of the lattice, which add the state before a step.
+    Steps {
+        /// Kernels of the first sample, after an even and after an odd number of steps.
+        begin: [Dispatch; 2],
+    },
+    /// The fields of an observer.
+    Observer {
+        /// Kernel of the first sample.
+        begin: Dispatch,
+        /// Kernel of the others.
+        add: Dispatch,
+    },
 }
 
 /// Statistics over time of density and velocity: 88 bytes per cell.
@@ -108,27 +108,30 @@ struct Part {
 /// let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor::default());
 /// let mut lattice = Lattice::new(&device, Setup::periodic([16, 16, 16], 0.01))?;
 /// lattice.start(&device, &queue, &State::rest(16 * 16 * 16), true)?;
-/// let mut statistics = Statistics::of_populations(&device, &lattice)?;
+/// let mut statistics = Statistics::new(&device, &mut lattice)?;
 ///
 /// let mut encoder = device.create_command_encoder(&Default::default());
 /// {
 ///     let mut pass = encoder.begin_compute_pass(&Default::default());
 ///     // An odd number of steps between samples: what alternates from step to step then averages out.
-///     for _ in 0..5 {
+///     for step in 0..50 {
+///         if step % 5 == 0 {
+///             statistics.record(&device, &mut lattice, &mut pass)?;
+///         }
 ///         lattice.record(&mut pass);
 ///     }
-///     statistics.record(&device, &mut lattice, &mut pass)?;
 /// }
 /// queue.submit([encoder.finish()]);
-/// assert_eq!(statistics.samples(), 1);
+/// assert_eq!(statistics.samples(), 10);
 /// # Ok(())
 /// # }
 /// ```
 #[derive(Debug)]
 pub struct Statistics {
-    parts: Vec<Part>,
+    /// The sums, by their names in WGSL.
+    planes: Vec<(String, wgpu::Buffer)>,
+    source: Source,
     program: Program,
-    cells: usize,
     merged: u64,
     open: u64,
     /// Created when first read.
@@ -138,84 +141,83 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Statistics of a lattice without blocks, read from its populations.
+    /// Statistics that the steps of `lattice` add to: a sample costs as much as accessing its sums, and nothing is read twice. In
+    /// cells with solid the velocity is that in the middle of the step. A lattice has at most one of these.
     ///
     /// # Errors
-    /// If it has cells with solid, whose velocity only an [`Observer`] computes, or the device cannot hold the buffers.
-    pub fn of_populations(device: &wgpu::Device, lattice: &Lattice) -> Result<Self> {
-        if lattice.setup.solid_operator.is_some() {
-            let message = "this lattice has blocks; use `of_observer`, which knows the velocity in their cells";
-            return Err(Error::argument("solid_operator", message));
+    /// [`Error::Limit`] if a kernel of the lattice cannot also bind the sums; [`Statistics::of_observer`] needs fewer bindings.
+    /// [`Error::Argument`] if the lattice has statistics already.
+    pub fn new(device: &wgpu::Device, lattice: &mut Lattice) -> Result<Self> {
+        if lattice.streams.has_statistics() {
+            let message = "this lattice has statistics over time already; read those";
+            return Err(Error::argument("statistics", message));
         }
-        Self::new(device, lattice, "sample_populations", &[])
+        let (setup, grid, limits) = (&lattice.setup, &lattice.grid, device.limits());
+        let others = memory(setup, grid, &limits)?.most_bindings;
+        let count = statistics_bindings(setup, grid, &limits, others)?;
+        let planes = make_planes(device, lattice, count);
+        let program = sums_program(lattice, count).slot("sample", "sample_populations");
+        let begin = |odd| {
+            let named = planes.iter().map(|(name, buffer)| (name.as_str(), buffer));
+            let buffers: Vec<_> = named.collect();
+            cell_dispatch(
+                device,
+                lattice,
+                &program,
+                ("begin_statistics", odd),
+                &buffers,
+            )
+        };
+        let begin = [begin(0)?, begin(1)?];
+        let bindings = Bindings {
+            statistics: count,
+            ..lattice.bindings
+        };
+        let of_lattice = (&lattice.setup, &lattice.grid, &lattice.buffers);
+        let streams = &mut lattice.streams;
+        streams.add_statistics(device, of_lattice, bindings, planes.clone())?;
+        let source = Source::Steps { begin };
+        Self::from(device, lattice, (planes, program, source))
     }
 
     /// Statistics of the fields of `observer`: call [`Observer::record`] before each [`Statistics::record`].
     ///
     /// # Errors
-    /// If the device cannot hold the buffers.
+    /// [`Error::Limit`] if the device cannot bind the sums.
     pub fn of_observer(
         device: &wgpu::Device,
         lattice: &Lattice,
         observer: &Observer,
     ) -> Result<Self> {
+        // Besides the fields of the observer, or the field that is read.
+        let count = statistics_bindings(&lattice.setup, &lattice.grid, &device.limits(), 4)?;
+        let planes = make_planes(device, lattice, count);
+        let program = sums_program(lattice, count).slot("sample", "sample_observed");
         let [x, y, z] = observer.velocity();
-        let buffers = [
+        let mut buffers = vec![
             ("density", observer.density()),
             ("velocity_x", x),
             ("velocity_y", y),
             ("velocity_z", z),
         ];
-        Self::new(device, lattice, "sample_observed", &buffers)
+        buffers.extend(planes.iter().map(|(name, buffer)| (name.as_str(), buffer)));
+        let dispatch = |entry| cell_dispatch(device, lattice, &program, (entry, 0), &buffers);
+        let source = Source::Observer {
+            begin: dispatch("begin_statistics")?,
+            add: dispatch("add_observed")?,
+        };
+        Self::from(device, lattice, (planes, program, source))
     }
 
-    fn new(
+    fn from(
         device: &wgpu::Device,
         lattice: &Lattice,
-        sample: &'static str,
-        sampled: &[(&str, &wgpu::Buffer)],
+        (planes, program, source): (Vec<(String, wgpu::Buffer)>, Program, Source),
     ) -> Result<Self> {
-        let cells = lattice.grid().cell_count();
-        let bytes = 4 * PLANES as u64;
-        let groups = largest_binding(&device.limits()) / bytes / GROUP as u64;
-        let most = GROUP * groups.max(1) as usize;
-        let program = lattice.cell_program("statistics").slot("sample", sample);
-        let make = |first: usize| {
-            let cells = first as u32..cells.min(first + most) as u32;
-            let buffer = zeroed(
-                device,
-                "statistics",
-                bytes * cells.len().next_multiple_of(GROUP) as u64,
-            );
-            let mut buffers = vec![("statistics", &buffer)];
-            buffers.extend(sampled);
-            let dispatch = |entry, odd| {
-                let dispatch = CellDispatch {
-                    program: &program,
-                    entry,
-                    pass: CellPass {
-                        odd,
-                        ..pass_over(&cells)
-                    },
-                    buffers: &buffers,
-                    constants: &[],
-                    invocations: cells.end - cells.start,
-                };
-                lattice.cell_dispatch(device, &dispatch)
-            };
-            let both = |entry| Ok::<_, Error>([dispatch(entry, 0)?, dispatch(entry, 1)?]);
-            let (begin, add) = (both("begin_statistics")?, both("add_sample")?);
-            Ok(Part {
-                cells,
-                buffer,
-                begin,
-                add,
-            })
-        };
         Ok(Self {
-            parts: (0..cells).step_by(most).map(make).collect::<Result<_>>()?,
+            planes,
+            source,
             program,
-            cells,
             merged: 0,
             open: 0,
             field: None,
@@ -231,40 +233,58 @@ impl Statistics {
 
     /// Bytes of the buffers.
     pub fn bytes(&self) -> u64 {
-        let parts = self.parts.iter().map(|part| part.buffer.size());
-        parts
+        let planes = self.planes.iter().map(|(_, buffer)| buffer.size());
+        planes
             .chain(self.field.as_ref().map(wgpu::Buffer::size))
             .sum()
     }
 
-    /// Records a sample of the present state.
+    /// Whether samples are read from an [`Observer`].
+    pub fn is_of_observer(&self) -> bool {
+        matches!(self.source, Source::Observer { .. })
+    }
+
+    /// Records a sample of the present state: at once from the fields of an observer; otherwise the next step adds it, which
+    /// must be recorded before statistics are read.
     ///
     /// # Errors
-    /// If the device does not compile the kernel that merges a block.
+    /// If the device does not compile the kernel that merges a block, or the state is the last sample already.
     pub fn record(
         &mut self,
         device: &wgpu::Device,
         lattice: &mut Lattice,
         pass: &mut wgpu::ComputePass<'_>,
     ) -> Result<()> {
-        lattice.close(pass);
-        for part in &self.parts {
-            let dispatches = match self.samples() {
-                0 => &part.begin,
-                _ => &part.add,
-            };
-            dispatches[lattice.parity()].record(pass);
-        }
-        self.open += 1;
+        self.check_complete(lattice)?;
         if self.open == BLOCK {
-            for part in &self.parts {
-                self.dispatch(device, lattice, part, ("merge_block", 0), &[])?
-                    .record(pass);
-            }
+            self.dispatch(device, lattice, ("merge_block", 0), &[])?
+                .record(pass);
             self.merged += BLOCK;
             self.open = 0;
         }
+        let first = self.samples() == 0;
+        match &self.source {
+            Source::Steps { begin } => {
+                if first {
+                    lattice.close(pass);
+                    begin[lattice.parity()].record(pass);
+                }
+                lattice.streams.samples = true;
+            }
+            Source::Observer { begin, .. } if first => begin.record(pass),
+            Source::Observer { add, .. } => add.record(pass),
+        }
+        self.open += 1;
         Ok(())
+    }
+
+    /// Checks that the step that adds the last sample has been recorded.
+    fn check_complete(&self, lattice: &Lattice) -> Result<()> {
+        if self.is_of_observer() || !lattice.streams.samples {
+            return Ok(());
+        }
+        let message = "the step that adds the last sample has not been recorded; record it first";
+        Err(Error::argument("statistics", message))
     }
 
     /// An entry of the kernel on the open block.
@@ -272,7 +292,6 @@ impl Statistics {
         &self,
         device: &wgpu::Device,
         lattice: &Lattice,
-        part: &Part,
         (entry, plane): (&'static str, u32),
         others: &[(&str, &wgpu::Buffer)],
     ) -> Result<Dispatch> {
@@ -283,17 +302,11 @@ impl Statistics {
             pad: 0,
         };
         let of_block = uniform(device, "statistics pass", &content);
-        let mut buffers = vec![("statistics", &part.buffer), ("statistics_pass", &of_block)];
+        let mut buffers = vec![("statistics_pass", &of_block)];
+        let planes = self.planes.iter();
+        buffers.extend(planes.map(|(name, buffer)| (name.as_str(), buffer)));
         buffers.extend(others);
-        let dispatch = CellDispatch {
-            program: &self.program,
-            entry,
-            pass: pass_over(&part.cells),
-            buffers: &buffers,
-            constants: &[],
-            invocations: part.cells.end - part.cells.start,
-        };
-        lattice.cell_dispatch(device, &dispatch)
+        cell_dispatch(device, lattice, &self.program, (entry, 0), &buffers)
     }
 
     /// Reads a statistic of the samples so far on the given cells (indices, x fastest), or on all, lattice units; NaN
@@ -310,26 +323,23 @@ impl Statistics {
         on: Option<&[u32]>,
     ) -> Result<Vec<f32>> {
         let plane = statistic.plane()?;
+        self.check_complete(lattice)?;
+        let cells = lattice.grid.cell_count();
         if self.samples() == 0 {
-            return Ok(vec![f32::NAN; on.map_or(self.cells, <[u32]>::len)]);
+            return Ok(vec![f32::NAN; on.map_or(cells, <[u32]>::len)]);
         }
         let field = match self.field.take() {
             Some(field) => field,
-            None => zeroed(device, "statistic", 4 * self.cells as u64),
+            None => zeroed(device, "statistic", 4 * cells as u64),
         };
         let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            for part in &self.parts {
-                let entry = ("write_statistic", plane);
-                self.dispatch(device, lattice, part, entry, &[("derived", &field)])?
-                    .record(&mut pass);
-            }
-        }
+        let entry = ("write_statistic", plane);
+        self.dispatch(device, lattice, entry, &[("derived", &field)])?
+            .record(&mut encoder.begin_compute_pass(&Default::default()));
         queue.submit([encoder.finish()]);
         let readback = &mut self.readback;
         let values = match on {
-            None => readback.read(device, queue, &field, self.cells).await,
+            None => readback.read(device, queue, &field, cells).await,
             Some(on) => {
                 let gather = &self.gather;
                 gather.read(device, queue, readback, &field, on).await
@@ -342,12 +352,14 @@ impl Statistics {
     /// Reads all numbers, for a later [`Statistics::restore`].
     ///
     /// # Errors
-    /// If the device is lost.
+    /// If the device is lost, or a step that adds a sample has not been recorded.
     pub async fn state(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
+        lattice: &Lattice,
     ) -> Result<StatisticsState> {
+        self.check_complete(lattice)?;
         let mut state = StatisticsState {
             merged: self.merged,
             open: self.open,
@@ -356,17 +368,14 @@ impl Statistics {
         if self.samples() == 0 {
             return Ok(state);
         }
-        state.values.resize(PLANES * self.cells, 0.0);
-        for part in &self.parts {
-            let count = part.buffer.size() as usize / 4;
-            let read: Vec<f32> = self
-                .readback
-                .read(device, queue, &part.buffer, count)
-                .await?;
-            for (plane, values) in state.values.chunks_mut(self.cells).enumerate() {
-                for (n, cell) in part.cells.clone().enumerate() {
-                    values[cell as usize] = read[place(plane, n)];
-                }
+        let grid = &lattice.grid;
+        let scalars = grid.scalar_count() as usize;
+        for (_, buffer) in &self.planes {
+            let count = buffer.size() as usize / 4;
+            let read: Vec<f32> = self.readback.read(device, queue, buffer, count).await?;
+            for plane in read.chunks_exact(scalars) {
+                let scalars = grid.domain().map(|cell| grid.scalar_of(cell));
+                state.values.extend(scalars.map(|at| plane[at as usize]));
             }
         }
         Ok(state)
@@ -376,12 +385,12 @@ impl Statistics {
     ///
     /// # Errors
     /// If it belongs to another grid.
-    pub fn check(&self, state: &StatisticsState) -> Result<()> {
+    pub fn check(&self, lattice: &Lattice, state: &StatisticsState) -> Result<()> {
         let count = match state.merged.saturating_add(state.open) {
             0 => 0,
-            _ => PLANES * self.cells,
+            _ => PLANES * lattice.grid.cell_count(),
         };
-        match state.values.len() == count && state.open < BLOCK {
+        match state.values.len() == count && state.open <= BLOCK {
             true => Ok(()),
             false => {
                 let message = "the saved statistics are of another grid, or damaged";
@@ -394,30 +403,79 @@ impl Statistics {
     ///
     /// # Errors
     /// If it belongs to another grid.
-    pub fn restore(&mut self, queue: &wgpu::Queue, state: &StatisticsState) -> Result<()> {
-        self.check(state)?;
+    pub fn restore(
+        &mut self,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        state: &StatisticsState,
+    ) -> Result<()> {
+        self.check(lattice, state)?;
         (self.merged, self.open) = (state.merged, state.open);
+        if !self.is_of_observer() {
+            lattice.streams.samples = false;
+        }
         if state.values.is_empty() {
             return Ok(());
         }
-        for part in &self.parts {
-            let mut own = vec![0.0; part.buffer.size() as usize / 4];
-            for (plane, values) in state.values.chunks(self.cells).enumerate() {
-                for (n, cell) in part.cells.clone().enumerate() {
-                    own[place(plane, n)] = values[cell as usize];
+        let grid = &lattice.grid;
+        let scalars = grid.scalar_count() as usize;
+        let mut values = state.values.chunks(grid.cell_count());
+        for (_, buffer) in &self.planes {
+            let mut own = vec![0.0; buffer.size() as usize / 4];
+            for (plane, values) in own.chunks_exact_mut(scalars).zip(&mut values) {
+                for (cell, value) in grid.domain().zip(values) {
+                    plane[grid.scalar_of(cell) as usize] = *value;
                 }
             }
-            queue.write_buffer(&part.buffer, 0, bytemuck::cast_slice(&own));
+            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&own));
         }
         Ok(())
     }
 }
 
-/// The pass over all cells in order.
-fn pass_over(cells: &Range<u32>) -> CellPass {
-    CellPass {
-        first: cells.start,
-        end: cells.end,
-        ..CellPass::default()
-    }
+/// The buffers of the sums, over so many bindings.
+fn make_planes(
+    device: &wgpu::Device,
+    lattice: &Lattice,
+    count: u32,
+) -> Vec<(String, wgpu::Buffer)> {
+    let plane = 4 * u64::from(lattice.grid.scalar_count());
+    let planes = planes(STATISTICS_PLANES, count).into_iter().enumerate();
+    planes
+        .map(|(n, own)| {
+            let buffer = zeroed(device, "statistics", own.len() as u64 * plane);
+            (format!("{STATISTICS_NAME}_{n}"), buffer)
+        })
+        .collect()
+}
+
+/// The kernels of single cells on the sums.
+fn sums_program(lattice: &Lattice, count: u32) -> Program {
+    let bindings = Bindings {
+        statistics: count,
+        ..lattice.bindings
+    };
+    program::single_cells(&lattice.setup, bindings, "statistics")
+}
+
+/// A dispatch over all cells, in steps of the given parity.
+fn cell_dispatch(
+    device: &wgpu::Device,
+    lattice: &Lattice,
+    program: &Program,
+    (entry, odd): (&'static str, u32),
+    buffers: &[(&str, &wgpu::Buffer)],
+) -> Result<Dispatch> {
+    let dispatch = CellDispatch {
+        program,
+        entry,
+        pass: CellPass {
+            odd,
+            ..CellPass::default()
+        },
+        buffers,
+        constants: &[],
+        invocations: lattice.grid.scalar_count(),
+    };
+    lattice.cell_dispatch(device, &dispatch)
 }

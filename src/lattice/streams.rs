@@ -14,13 +14,20 @@ use crate::{
     },
 };
 
+/// The kernels of even and odd steps, with their buffers.
+#[derive(Debug)]
+struct Steps {
+    kernels: [Kernel; 2],
+    binds: [wgpu::BindGroup; 2],
+}
+
 /// The dispatches of one kind of brick.
 #[derive(Debug)]
 struct Stream {
     kind: BrickKind,
-    /// Of even and odd steps.
-    kernels: [Kernel; 2],
-    binds: [wgpu::BindGroup; 2],
+    steps: Steps,
+    /// Those of steps that add a sample to the statistics.
+    sampling: Option<Steps>,
     /// Its length and the bricks.
     list: Option<wgpu::Buffer>,
     groups: u32,
@@ -38,6 +45,10 @@ pub(super) struct Streams {
     brick_bytes: Vec<u64>,
     /// The bricks that blocks reach.
     psm_bricks: Vec<u32>,
+    /// The sums of statistics over time, by their names in WGSL.
+    statistics: Vec<(String, wgpu::Buffer)>,
+    /// Whether the coming step adds a sample to these.
+    pub samples: bool,
 }
 
 impl Streams {
@@ -51,11 +62,6 @@ impl Streams {
     ) -> Result<Self> {
         let all: u32 = grid.bricks().iter().product();
         let kinds = sorted(setup, geometry, &[]);
-        let linked = |(kind, _): &(BrickKind, _)| {
-            let program = program::collide_stream(setup, bindings, *kind);
-            Ok(Shader::new(device, program.link()?))
-        };
-        let shaders = kinds.iter().map(linked).collect::<Result<Vec<_>>>()?;
         let brick: u32 = grid.brick.iter().product();
         let plane = 4 * u64::from(brick * grid.lanes);
         let brick_bytes: Vec<_> = match setup.solid_operator {
@@ -68,21 +74,8 @@ impl Streams {
         let psm_planes = psm_buffers(device, &brick_bytes, 1);
         let face_codes = code_buffer(device, setup, 1);
         let mut streams = Vec::new();
-        for (n, ((kind, bricks), shader)) in kinds.into_iter().zip(shaders).enumerate() {
-            let kernel = |odd| {
-                let of_setup = program::constants(setup, grid, odd);
-                let mut constants = shader.linked().constants_of(&of_setup);
-                // One dispatch of a step counts it for the guard: the first, which always runs.
-                let counts = f64::from(u8::from(n == 0));
-                if setup.max_speed > 0.0 {
-                    constants.push(("GUARD_COUNTS", counts));
-                }
-                if kind == BrickKind::All {
-                    constants.push(("BRICKS", f64::from(all)));
-                }
-                shader.kernel(device, "collide_stream", &constants)
-            };
-            let kernels = [kernel(false)?, kernel(true)?];
+        for (n, (kind, bricks)) in kinds.into_iter().enumerate() {
+            let kernels = compile(device, (setup, grid, bindings), kind, n == 0)?;
             let groups = bricks.len() as u32;
             let list = (kind != BrickKind::All).then(|| {
                 let mut list = counted(&bricks);
@@ -91,12 +84,16 @@ impl Streams {
                 }
                 storage(device, "bricks", bytemuck::cast_slice(&list))
             });
-            let of_blocks = (&psm_planes[..], face_codes.as_ref());
-            let binds = bind(device, &kernels, buffers, list.as_ref(), of_blocks)?;
+            let others = Others {
+                psm_planes: &psm_planes,
+                face_codes: face_codes.as_ref(),
+                statistics: &[],
+            };
+            let binds = bind(device, &kernels, buffers, list.as_ref(), &others)?;
             streams.push(Stream {
                 kind,
-                kernels,
-                binds,
+                steps: Steps { kernels, binds },
+                sampling: None,
                 list,
                 groups: if kind == BrickKind::All { all } else { groups },
             });
@@ -107,7 +104,39 @@ impl Streams {
             face_codes,
             brick_bytes,
             psm_bricks: Vec::new(),
+            statistics: Vec::new(),
+            samples: false,
         })
+    }
+
+    /// Whether steps add samples to statistics.
+    pub fn has_statistics(&self) -> bool {
+        !self.statistics.is_empty()
+    }
+
+    /// Compiles the kernels that add samples to the sums in `statistics`.
+    ///
+    /// # Errors
+    /// If the device cannot bind these.
+    pub fn add_statistics(
+        &mut self,
+        device: &wgpu::Device,
+        (setup, grid, buffers): (&Setup, &Grid, &Buffers),
+        bindings: Bindings,
+        statistics: Vec<(String, wgpu::Buffer)>,
+    ) -> Result<()> {
+        let others = Others {
+            psm_planes: &self.psm_planes,
+            face_codes: self.face_codes.as_ref(),
+            statistics: &statistics,
+        };
+        for (n, stream) in self.streams.iter_mut().enumerate() {
+            let kernels = compile(device, (setup, grid, bindings), stream.kind, n == 0)?;
+            let binds = bind(device, &kernels, buffers, stream.list.as_ref(), &others)?;
+            stream.sampling = Some(Steps { kernels, binds });
+        }
+        self.statistics = statistics;
+        Ok(())
     }
 
     /// What blocks leave of the cells of the bricks that they reach.
@@ -148,10 +177,16 @@ impl Streams {
                 let room = most.min(slots + slots / 2);
                 self.psm_planes = psm_buffers(device, &self.brick_bytes, room);
                 self.face_codes = code_buffer(device, setup, room);
-                let of_blocks = (&self.psm_planes[..], self.face_codes.as_ref());
+                let others = Others {
+                    psm_planes: &self.psm_planes,
+                    face_codes: self.face_codes.as_ref(),
+                    statistics: &self.statistics,
+                };
                 for stream in &mut self.streams {
                     let list = stream.list.as_ref();
-                    stream.binds = bind(device, &stream.kernels, buffers, list, of_blocks)?;
+                    for steps in std::iter::once(&mut stream.steps).chain(&mut stream.sampling) {
+                        steps.binds = bind(device, &steps.kernels, buffers, list, &others)?;
+                    }
                 }
             }
             if psm.is_empty() {
@@ -178,15 +213,17 @@ impl Streams {
         let these = |stream: &&Stream| (stream.kind == BrickKind::Psm) == psm;
         for stream in self.streams.iter().filter(these) {
             if stream.groups > 0 {
-                stream.kernels[parity].record(pass, &stream.binds[parity], stream.groups);
+                let sampling = stream.sampling.as_ref().filter(|_| self.samples);
+                let Steps { kernels, binds } = sampling.unwrap_or(&stream.steps);
+                kernels[parity].record(pass, &binds[parity], stream.groups);
             }
         }
     }
 
-    /// The kernels of a step in their order, each with its workgroups.
+    /// The kernels of a step without a sample in their order, each with its workgroups.
     pub fn kernels(&self, parity: usize) -> impl Iterator<Item = (&Kernel, u32)> {
         let streams = self.streams.iter();
-        streams.map(move |stream| (&stream.kernels[parity], stream.groups))
+        streams.map(move |stream| (&stream.steps.kernels[parity], stream.groups))
     }
 
     /// Bytes of the lists, and of what blocks leave of cells.
@@ -263,18 +300,52 @@ fn counted(bricks: &[u32]) -> Vec<u32> {
     list
 }
 
+/// The kernels of a kind of brick for even and odd steps; the first kind counts steps for the guard.
+fn compile(
+    device: &wgpu::Device,
+    (setup, grid, bindings): (&Setup, &Grid, Bindings),
+    kind: BrickKind,
+    first: bool,
+) -> Result<[Kernel; 2]> {
+    let linked = program::collide_stream(setup, bindings, kind).link()?;
+    let shader = Shader::new(device, linked);
+    let kernel = |odd| {
+        let of_setup = program::constants(setup, grid, odd);
+        let mut constants = shader.linked().constants_of(&of_setup);
+        // One dispatch of a step counts it: the first, which always runs.
+        if setup.max_speed > 0.0 {
+            constants.push(("GUARD_COUNTS", f64::from(u8::from(first))));
+        }
+        if kind == BrickKind::All {
+            let all: u32 = grid.bricks().iter().product();
+            constants.push(("BRICKS", f64::from(all)));
+        }
+        shader.kernel(device, "collide_stream", &constants)
+    };
+    Ok([kernel(false)?, kernel(true)?])
+}
+
+/// Buffers that are not part of [`Buffers`].
+struct Others<'a> {
+    psm_planes: &'a [wgpu::Buffer],
+    face_codes: Option<&'a wgpu::Buffer>,
+    statistics: &'a [(String, wgpu::Buffer)],
+}
+
 fn bind(
     device: &wgpu::Device,
     kernels: &[Kernel; 2],
     buffers: &Buffers,
     list: Option<&wgpu::Buffer>,
-    (psm_planes, face_codes): (&[wgpu::Buffer], Option<&wgpu::Buffer>),
+    others: &Others<'_>,
 ) -> Result<[wgpu::BindGroup; 2]> {
     let bind = |parity: usize| {
         let mut named = buffers.named(parity == 1);
         named.extend(list.map(|list| ("bricks", list)));
-        named.extend(PSM_NAMES.into_iter().zip(psm_planes));
-        named.extend(face_codes.map(|codes| ("face_codes", codes)));
+        named.extend(PSM_NAMES.into_iter().zip(others.psm_planes));
+        named.extend(others.face_codes.map(|codes| ("face_codes", codes)));
+        let statistics = others.statistics.iter();
+        named.extend(statistics.map(|(name, buffer)| (name.as_str(), buffer)));
         kernels[parity].bind(device, &named)
     };
     Ok([bind(0)?, bind(1)?])

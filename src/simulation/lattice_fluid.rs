@@ -67,7 +67,8 @@ impl LatticeFluid {
             let mut lattice =
                 Lattice::new(device, setup).map_err(|error| error.at_key(lattice_key))?;
             let observer = Observer::new(device, &lattice)?;
-            let sampling = Sampling::new(device, (scene, units.time_step), &lattice, &observer)?;
+            let sampling =
+                Sampling::new(device, (scene, units.time_step), &mut lattice, &observer)?;
             let mut advice = Advice::new();
             let mut blocks = None;
             if scene.has_blocks() {
@@ -179,13 +180,15 @@ impl LatticeFluid {
     }
 
     /// Records the boundaries and the bricks with blocks.
-    fn record_psm(&mut self, encoder: &mut wgpu::CommandEncoder) {
+    fn record_psm(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<()> {
+        self.sample_in_step(encoder)?;
         if self.phases.is_some() {
             let mut pass = begin_pass(&mut self.phases, encoder, "boundaries");
             self.lattice.record_boundaries(&mut pass);
         }
         let mut pass = begin_pass(&mut self.phases, encoder, "bricks with blocks");
         self.lattice.record_psm(&mut pass);
+        Ok(())
     }
 
     /// Records the other bricks.
@@ -215,7 +218,7 @@ impl LatticeFluid {
         faces: bool,
     ) -> Result<Option<Vec<FluidLoad>>> {
         let step = self.lattice.step() + 1;
-        self.record_psm(&mut encoder);
+        self.record_psm(&mut encoder)?;
         if let Some(coupling) = &mut self.coupling {
             coupling.record_loads(&self.device, (&mut encoder, &mut self.phases), step);
             if faces {
@@ -241,7 +244,6 @@ impl LatticeFluid {
         }
         let loads = coupling.exchange();
         self.set_faces()?;
-        self.sample()?;
         self.control_flow().await?;
         Ok(Some(loads))
     }
@@ -327,7 +329,7 @@ impl LatticeFluid {
         self.lattice.check_populations(&state.populations)?;
         state.inside.check(self.lattice.grid())?;
         if let (Some(sampling), Some(state)) = (&self.sampling, &state.sampling) {
-            sampling.check(state)?;
+            sampling.check(&self.lattice, state)?;
         }
         match (&self.coupling, &state.coupling) {
             (Some(coupling), Some(state)) => coupling.check(state),
@@ -351,7 +353,7 @@ impl LatticeFluid {
         self.observer
             .keep_inside(device, &self.lattice, &state.inside)?;
         if let Some(sampling) = &mut self.sampling {
-            sampling.restore(queue, state.sampling.as_ref())?;
+            sampling.restore(queue, &mut self.lattice, state.sampling.as_ref())?;
         }
         self.restore_flow_control(state.flow_control)?;
         self.set_faces()
@@ -370,6 +372,8 @@ impl Fluid for LatticeFluid {
         end: f64,
     ) -> Result<Option<Vec<FluidLoad>>> {
         let last = (end / self.units.time_step).round() as u64;
+        // The lists of bricks and the fields of blocks are still those of the last step.
+        self.sample_observed()?;
         let mut encoder = self.device.create_command_encoder(&Default::default());
         if let Some(coupling) = &mut self.coupling {
             let (device, queue) = (&self.device, &self.queue);
@@ -393,7 +397,7 @@ impl Fluid for LatticeFluid {
                 let faces = LatticeCoupling::may_be_last(interval, next, last);
                 return self.exchange(encoder, interval, faces).await;
             }
-            self.record_psm(&mut encoder);
+            self.record_psm(&mut encoder)?;
             if let Some(coupling) = self
                 .coupling
                 .as_mut()
@@ -405,12 +409,12 @@ impl Fluid for LatticeFluid {
             self.record_rest(&mut encoder);
             let coming = self.changed_faces();
             let goes_on = coming.as_ref().is_ok_and(|coming| coming.is_empty());
-            if self.lattice.step() == last || !goes_on || self.sample_due() || self.control_due() {
+            let ends = self.lattice.step() == last || !goes_on;
+            if ends || self.observed_sample_due() || self.control_due() {
                 // The recorded steps count as done, even if the next step fails. Face values change only
                 // between two submissions.
                 self.submit(encoder).await?;
                 self.set_faces()?;
-                self.sample()?;
                 self.control_flow().await?;
                 return Ok(None);
             }

@@ -2,7 +2,7 @@
 
 use super::lattice_fluid::LatticeFluid;
 use crate::{
-    Result,
+    Error, Result,
     lattice::{Lattice, Observer, Statistic, Statistics, StatisticsState},
     scene::{Field, Scene},
 };
@@ -35,7 +35,7 @@ impl Sampling {
     pub fn new(
         device: &wgpu::Device,
         (scene, time_step): (&Scene, f64),
-        lattice: &Lattice,
+        lattice: &mut Lattice,
         observer: &Observer,
     ) -> Result<Option<Self>> {
         let Some(requested) = scene
@@ -48,62 +48,78 @@ impl Sampling {
         Ok(Some(Self {
             first: requested.first_step(time_step).max(1),
             stride: requested.stride(time_step),
-            statistics: match lattice.setup().solid_operator {
-                Some(_) => Statistics::of_observer(device, lattice, observer)?,
-                None => Statistics::of_populations(device, lattice)?,
+            statistics: match Statistics::new(device, lattice) {
+                // The device has too few bindings for the sums in the kernels of a step.
+                Err(Error::Limit { .. }) => Statistics::of_observer(device, lattice, observer)?,
+                statistics => statistics?,
             },
         }))
     }
 
-    /// Whether the state after `step` is a sample.
-    pub fn due(&self, step: u64) -> bool {
+    /// Whether the state after `step` is a sample, which the next step or the observer of the fluid adds.
+    fn due(&self, step: u64, by_observer: bool) -> bool {
         let since = step.checked_sub(self.first);
         since.is_some_and(|since| since.is_multiple_of(self.stride))
+            && self.statistics.is_of_observer() == by_observer
     }
 
-    pub fn check(&self, state: &SamplingState) -> Result<()> {
-        self.statistics.check(&state.statistics)
+    pub fn check(&self, lattice: &Lattice, state: &SamplingState) -> Result<()> {
+        self.statistics.check(lattice, &state.statistics)
     }
 
     /// Continues from a state with the same sampling schedule; with another one the statistics start anew.
-    pub fn restore(&mut self, queue: &wgpu::Queue, state: Option<&SamplingState>) -> Result<()> {
+    pub fn restore(
+        &mut self,
+        queue: &wgpu::Queue,
+        lattice: &mut Lattice,
+        state: Option<&SamplingState>,
+    ) -> Result<()> {
         let same =
             |state: &&SamplingState| [state.first, state.stride] == [self.first, self.stride];
         let none = StatisticsState::default();
         let state = state.filter(same).map_or(&none, |state| &state.statistics);
-        self.statistics.restore(queue, state)
+        self.statistics.restore(queue, lattice, state)
     }
 }
 
 impl LatticeFluid {
-    /// Whether the present state is a sample.
-    pub(super) fn sample_due(&self) -> bool {
-        let step = self.lattice.step();
-        self.sampling
-            .as_ref()
-            .is_some_and(|sampling| sampling.due(step))
+    /// Whether the present state is a sample that the observer adds.
+    pub(super) fn observed_sample_due(&self) -> bool {
+        let sampling = self.sampling.as_ref();
+        sampling.is_some_and(|sampling| sampling.due(self.lattice.step(), true))
     }
 
-    /// Adds the present state to the statistics if it is a sample.
-    pub(super) fn sample(&mut self) -> Result<()> {
-        if !self.sample_due() {
+    /// Adds the present state to the statistics if it is a sample that the observer adds.
+    pub(super) fn sample_observed(&mut self) -> Result<()> {
+        if !self.observed_sample_due() {
             return Ok(());
         }
-        let Some(sampling) = &mut self.sampling else {
-            return Ok(());
-        };
         let mut encoder = self.device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            if self.lattice.setup().solid_operator.is_some() {
-                self.observer.record(&mut self.lattice, &mut pass)?;
-            }
-            sampling
-                .statistics
-                .record(&self.device, &mut self.lattice, &mut pass)?;
+            self.observer.record(&mut self.lattice, &mut pass)?;
+            self.record_sample(&mut pass)?;
         }
         self.queue.submit([encoder.finish()]);
         Ok(())
+    }
+
+    /// Makes the coming step add the state before it to the statistics if that is a sample.
+    pub(super) fn sample_in_step(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<()> {
+        let step = self.lattice.step();
+        let sampling = self.sampling.as_ref();
+        if sampling.is_some_and(|sampling| sampling.due(step, false)) {
+            self.record_sample(&mut encoder.begin_compute_pass(&Default::default()))?;
+        }
+        Ok(())
+    }
+
+    fn record_sample(&mut self, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
+        let Some(sampling) = &mut self.sampling else {
+            return Ok(());
+        };
+        let statistics = &mut sampling.statistics;
+        statistics.record(&self.device, &mut self.lattice, pass)
     }
 
     pub(super) async fn sampling_state(&mut self) -> Result<Option<SamplingState>> {
@@ -113,7 +129,10 @@ impl LatticeFluid {
         Ok(Some(SamplingState {
             first: sampling.first,
             stride: sampling.stride,
-            statistics: sampling.statistics.state(&self.device, &self.queue).await?,
+            statistics: sampling
+                .statistics
+                .state(&self.device, &self.queue, &self.lattice)
+                .await?,
         }))
     }
 

@@ -3,8 +3,8 @@
 use kit::{Random, Rig, twin::statistics::moments};
 use riprap::{
     lattice::{
-        Face, Force, Lattice, Observer, Setup, SolidOperator, State, Statistic, Statistics,
-        StatisticsState, Storage,
+        Face, Force, Grid, Lattice, Observer, Setup, State, Statistic, Statistics, StatisticsState,
+        Storage, SurfaceCell,
     },
     wgpu,
 };
@@ -60,7 +60,7 @@ impl Signal {
     }
 
     fn state(&self, statistics: &mut Statistics) -> StatisticsState {
-        let state = statistics.state(&self.rig.device, &self.rig.queue);
+        let state = statistics.state(&self.rig.device, &self.rig.queue, &self.lattice);
         self.rig.wait(state).unwrap()
     }
 }
@@ -99,8 +99,10 @@ fn means_and_covariances_are_those_of_all_samples() {
     // Odd sizes, one cell; before, at and after the end of a sampling block; one buffer and several.
     let small = {
         let all = kit::gpu::selected().unwrap().limits();
+        let grid = Grid::new(&Setup::periodic([7, 5, 3], 0.02)).unwrap();
+        let plane = 4 * u64::from(grid.scalar_count());
         wgpu::Limits {
-            max_storage_buffer_binding_size: 4 * 22 * 64,
+            max_storage_buffer_binding_size: 4 * plane,
             ..all
         }
     };
@@ -160,54 +162,85 @@ fn means_and_covariances_are_those_of_all_samples() {
     }
 }
 
-/// A stream between walls, driven by a force, in two layouts.
+/// A stream between walls, driven by a force, with a solid cell and some that are filled in part, in all layouts; sums in one
+/// binding and in several.
 #[test]
-fn samples_from_populations_are_those_of_an_observer() {
-    let rig = Rig::new();
+fn samples_that_steps_add_are_those_of_an_observer() {
+    let all = Rig::new();
+    let can_be_wide = all.device.features().contains(wgpu::Features::SHADER_INT64);
     let cells = [6, 7, 4];
     let count = cells.iter().product::<u32>() as usize;
-    for (storage, lanes) in [(Storage::F32, 1), (Storage::F16, 2)] {
+    for (storage, lanes, wide, wale) in [
+        (Storage::F32, 1, false, Some(1)),
+        (Storage::F16, 2, false, None),
+        (Storage::F32, 4, false, Some(2)),
+        (Storage::F32, 4, true, Some(2)),
+        (Storage::F16, 4, true, None),
+    ] {
+        if wide && !can_be_wide {
+            continue;
+        }
         let mut setup = Setup::periodic(cells, 0.02);
-        (setup.storage, setup.lanes) = (storage, lanes);
+        (setup.storage, setup.lanes, setup.wide) = (storage, lanes, wide);
         setup.faces[1] = [Face::Wall([0.0; 3]), Face::Wall([0.05, 0.0, 0.0])];
         setup.force = Force::Constant([1e-4, 0.0, 2e-5]);
-        setup.solid = (0..count).map(|n| n == 100).collect();
-        let mut lattice = rig.start(setup, &State::rest(count), true);
-        let observer = Observer::new(&rig.device, &lattice).unwrap();
-        let mut of_observer = Statistics::of_observer(&rig.device, &lattice, &observer).unwrap();
-        let mut of_populations = Statistics::of_populations(&rig.device, &lattice).unwrap();
-        for _ in 0..7 {
-            rig.run(&mut lattice, 5);
-            let mut encoder = rig.device.create_command_encoder(&Default::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                observer.record(&mut lattice, &mut pass).unwrap();
-                for statistics in [&mut of_observer, &mut of_populations] {
-                    statistics
-                        .record(&rig.device, &mut lattice, &mut pass)
-                        .unwrap();
-                }
-            }
-            rig.queue.submit([encoder.finish()]);
+        if let Some(interval) = wale {
+            (setup.wale, setup.wale_interval) = (Some(0.4), interval);
         }
-        for of in ALL {
-            let [one, other] = [&mut of_observer, &mut of_populations].map(|statistics| {
-                let read = statistics.read(&rig.device, &rig.queue, &lattice, of, None);
-                rig.wait(read).unwrap()
-            });
-            let most = one
-                .iter()
-                .fold(0.0_f32, |most, value| most.max(value.abs()));
-            assert!(most > 0.0, "{of:?}");
-            for (one, other) in one.iter().zip(&other) {
-                assert!((one - other).abs() <= 1e-6 * most, "{of:?}: {one} {other}");
+        setup.solid = (0..count).map(|n| n == 100).collect();
+        setup.surface = vec![SurfaceCell {
+            cell: 63,
+            fraction: 0.4,
+        }];
+        let plane = 4 * u64::from(Grid::new(&setup).unwrap().scalar_count());
+        let few = wgpu::Limits {
+            max_storage_buffer_binding_size: 5 * plane,
+            ..all.device.limits()
+        };
+        let spread = all.device.limits().max_storage_buffers_per_shader_stage >= 32;
+        for limits in std::iter::once(None).chain(spread.then_some(Some(few))) {
+            let rig = limits.map_or_else(Rig::new, Rig::with_limits);
+            let mut lattice = rig.start(setup.clone(), &State::rest(count), true);
+            let observer = Observer::new(&rig.device, &lattice).unwrap();
+            let mut observed = Statistics::of_observer(&rig.device, &lattice, &observer).unwrap();
+            let mut summed = Statistics::new(&rig.device, &mut lattice).unwrap();
+            assert!(Statistics::new(&rig.device, &mut lattice).is_err(), "twice");
+            // Over the end of a block in one of them.
+            let samples = if lanes == 1 { 300 } else { 20 };
+            for sample in 1..=samples {
+                let mut encoder = rig.device.create_command_encoder(&Default::default());
+                {
+                    let mut pass = encoder.begin_compute_pass(&Default::default());
+                    observer.record(&mut lattice, &mut pass).unwrap();
+                    for statistics in [&mut observed, &mut summed] {
+                        statistics
+                            .record(&rig.device, &mut lattice, &mut pass)
+                            .unwrap();
+                    }
+                }
+                rig.queue.submit([encoder.finish()]);
+                assert_eq!(summed.samples(), sample);
+                let early = summed.state(&rig.device, &rig.queue, &lattice);
+                assert!(rig.wait(early).is_err(), "before the step");
+                rig.run(&mut lattice, 1 + 2 * (sample as usize % 2));
+            }
+            for of in ALL {
+                let [one, other] = [&mut observed, &mut summed].map(|statistics| {
+                    let read = statistics.read(&rig.device, &rig.queue, &lattice, of, None);
+                    rig.wait(read).unwrap()
+                });
+                let most = one
+                    .iter()
+                    .fold(0.0_f32, |most, value| most.max(value.abs()));
+                assert!(most > 0.0, "{of:?}");
+                for (one, other) in one.iter().zip(&other) {
+                    // The rounding of sums of so many samples.
+                    let error = (one - other).abs() / most;
+                    assert!(error <= 1e-5, "{storage:?} {lanes} {of:?}: {one} {other}");
+                }
             }
         }
     }
-    let mut setup = Setup::periodic(cells, 0.02);
-    setup.solid_operator = Some(SolidOperator::Holdych);
-    let lattice = rig.start(setup, &State::rest(count), true);
-    assert!(Statistics::of_populations(&rig.device, &lattice).is_err());
 }
 
 #[test]
@@ -223,7 +256,9 @@ fn a_restored_state_goes_on_with_the_same_bits() {
         }
         let state = signal.state(&mut whole);
         let mut fresh = signal.statistics();
-        fresh.restore(&signal.rig.queue, &state).unwrap();
+        fresh
+            .restore(&signal.rig.queue, &mut signal.lattice, &state)
+            .unwrap();
         assert_eq!(signal.state(&mut fresh), state);
         let next = sample(&mut random, cells);
         signal.add(&mut whole, &next);
@@ -233,7 +268,8 @@ fn a_restored_state_goes_on_with_the_same_bits() {
     }
     let mut state = signal.state(&mut whole);
     state.values.pop();
-    assert!(whole.restore(&signal.rig.queue, &state).is_err());
+    let restored = whole.restore(&signal.rig.queue, &mut signal.lattice, &state);
+    assert!(restored.is_err());
     let bad = whole.read(
         &signal.rig.device,
         &signal.rig.queue,

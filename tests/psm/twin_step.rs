@@ -2,21 +2,31 @@
 
 use crate::fixture::Subject;
 use kit::Rig;
-use kit::twin::Solid;
 use kit::twin::of_setup::{limit, noise, walled};
+use kit::twin::{
+    Solid,
+    lattice::{C, Q},
+    statistics::moments,
+};
 use riprap::lattice::{
-    Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Storage, WallModel,
+    Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Statistic, Statistics,
+    Storage, WallModel,
 };
 
-/// Compares with the twin after 1, 2 and 5 steps. Forces are sums over the populations of a cell, whose weights add up to 1, and
+/// Compares with the twin after 1, 2 and 5 steps, and the statistics of the states before three of these. Forces are sums over the populations of a cell, whose weights add up to 1, and
 /// have the rounding of the populations.
 fn assert_equal_to_twin(name: &str, setup: &Setup) {
     let mut subject = Subject::new(setup);
     let bricks = subject.some_bricks();
     subject.fill(&bricks);
+    let mut sampling = Sampling::new(&mut subject);
     for steps in [1, 1, 3] {
-        subject.rig.run(&mut subject.lattice, steps);
+        subject.rig.run(&mut subject.lattice, steps - 1);
         subject.twin.run(steps - 1);
+        if let Some(sampling) = &mut sampling {
+            sampling.record(&mut subject);
+        }
+        subject.rig.run(&mut subject.lattice, 1);
         let forces = subject.force_error(&bricks);
         subject.twin.step();
         let populations = subject.population_error();
@@ -30,6 +40,73 @@ fn assert_equal_to_twin(name: &str, setup: &Setup) {
             forces < limit(setup),
             "{name}, step {step}: forces {forces:e}"
         );
+    }
+    if let Some(sampling) = sampling {
+        sampling.assert_equal(name, &subject);
+    }
+}
+
+/// Statistics of a lattice, and the samples of its twin.
+struct Sampling {
+    statistics: Statistics,
+    samples: Vec<Vec<[f32; 4]>>,
+}
+
+impl Sampling {
+    /// `None` if the device has too few bindings.
+    fn new(subject: &mut Subject) -> Option<Self> {
+        Some(Self {
+            statistics: Statistics::new(&subject.rig.device, &mut subject.lattice).ok()?,
+            samples: Vec::new(),
+        })
+    }
+
+    /// Samples the present state. The momentum in the middle of a step is the mean of that before and after the collision.
+    fn record(&mut self, subject: &mut Subject) {
+        let (device, twin) = (&subject.rig.device, &subject.twin);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        let recorded = self
+            .statistics
+            .record(device, &mut subject.lattice, &mut pass);
+        recorded.unwrap();
+        drop(pass);
+        subject.rig.queue.submit([encoder.finish()]);
+        let momentum =
+            |f: &[f64; Q], a: usize| (0..Q).map(|q| f[q] * f64::from(C[q][a])).sum::<f64>();
+        let sample = |(cell, after): (usize, &[f64; Q])| {
+            if twin.domain.solid[cell] {
+                return [0.0; 4];
+            }
+            let (before, rho) = (&twin.f[cell], twin.macroscopic(cell).0);
+            let u = [0, 1, 2].map(|a| (momentum(before, a) + momentum(after, a)) / (2.0 * rho));
+            [rho - 1.0, u[0], u[1], u[2]].map(|value| value as f32)
+        };
+        let collided = twin.collided();
+        self.samples
+            .push(collided.iter().enumerate().map(sample).collect());
+    }
+
+    fn assert_equal(mut self, name: &str, subject: &Subject) {
+        let (rig, lattice) = (&subject.rig, &subject.lattice);
+        let velocity = (0..3).map(Statistic::Velocity);
+        let means = std::iter::once(Statistic::Excess).chain(velocity);
+        let stress = (0..6).map(Statistic::ReynoldsStress);
+        let products = std::iter::once(Statistic::ExcessVariance).chain(stress);
+        for (k, of) in means.chain(products).enumerate() {
+            let read = self
+                .statistics
+                .read(&rig.device, &rig.queue, lattice, of, None);
+            for (cell, found) in rig.wait(read).unwrap().into_iter().enumerate() {
+                let own: Vec<_> = self.samples.iter().map(|sample| sample[cell]).collect();
+                let (mean, product) = moments(&own);
+                let expected = if k < 4 { mean[k] } else { product[k - 4] };
+                assert!(
+                    (f64::from(found) - expected).abs() < limit(&subject.setup),
+                    "{name}, {of:?}, cell {cell}: {found}, not {expected}"
+                );
+            }
+        }
     }
 }
 

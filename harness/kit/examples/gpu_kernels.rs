@@ -12,8 +12,8 @@ use naga::{
 use riprap::{
     gpu::{kernel::bindings, link::Program},
     lattice::{
-        self, BrickKind, Collision, Face, Force, Grid, SolidOperator, SolidWeight, Storage,
-        SurfaceCell, WallModel, collide_stream, single_cells,
+        self, Bindings, BrickKind, Collision, Face, Force, Grid, SolidOperator, SolidWeight,
+        Storage, SurfaceCell, WallModel, collide_stream, single_cells,
     },
     psm::{self, CellMapping, Forms},
     sph::{self, CellGrid, EquationOfState, NeighbourSearch, Scheme, Side},
@@ -97,6 +97,7 @@ impl Output<'_> {
                 let mut setup = setup.clone();
                 setup.wale = wale;
                 self.step(&format!("{stored}{eddy}"), BrickKind::All, &setup)?;
+                self.sampling_step(&format!("{stored}{eddy}"), BrickKind::All, &setup)?;
                 setup.faces = [(); 3].map(|()| [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])]);
                 self.step(&format!("{stored}{eddy}_walls"), BrickKind::Flagged, &setup)?;
                 if wale.is_some() {
@@ -127,6 +128,9 @@ impl Output<'_> {
                     let name = format!("{stored}{eddy}_psm_{name}");
                     self.step(&name, BrickKind::Psm, &setup)?;
                 }
+                setup.solid_operator = Some(SolidOperator::Holdych);
+                let name = format!("{stored}{eddy}_psm_holdych");
+                self.sampling_step(&name, BrickKind::Psm, &setup)?;
             }
             let variant = |change: fn(&mut lattice::Setup)| {
                 let mut setup = setup.clone();
@@ -147,12 +151,30 @@ impl Output<'_> {
     }
 
     fn step(&mut self, name: &str, kind: BrickKind, setup: &lattice::Setup) -> Outcome {
+        self.step_with(&format!("step_{name}"), 1.into(), kind, setup)
+    }
+
+    /// A step that adds a sample to the statistics over time.
+    fn sampling_step(&mut self, name: &str, kind: BrickKind, setup: &lattice::Setup) -> Outcome {
+        let bindings = Bindings {
+            statistics: 1,
+            ..Bindings::from(1)
+        };
+        self.step_with(&format!("step_{name}_statistics"), bindings, kind, setup)
+    }
+
+    fn step_with(
+        &mut self,
+        name: &str,
+        bindings: Bindings,
+        kind: BrickKind,
+        setup: &lattice::Setup,
+    ) -> Outcome {
         let grid = Grid::new(setup)?;
         let mut constants = lattice::constants(setup, &grid, false);
         constants.push(("BRICKS", grid.bricks().iter().product::<u32>().into()));
-        let program = collide_stream(setup, 1, kind);
-        let name = format!("step_{name}");
-        self.put(&name, &program, "collide_stream", &constants)
+        let program = collide_stream(setup, bindings, kind);
+        self.put(name, &program, "collide_stream", &constants)
     }
 
     fn single_cells(&mut self, stored: &str, mut setup: lattice::Setup) -> Outcome {
@@ -182,7 +204,7 @@ impl Output<'_> {
             ("sums", "sum_cells"),
             ("derive", "derive"),
             ("gather", "gather"),
-            ("statistics", "add_sample"),
+            ("statistics", "add_observed"),
             ("statistics", "merge_block"),
         ] {
             let program = single_cells(&setup, 1, file)

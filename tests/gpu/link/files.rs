@@ -38,6 +38,7 @@ fn files_stand_on_files_that_exist() {
         "velocities",
         "cell_velocities",
         "forces",
+        "statistics_planes",
         "psm_storage",
         "psm_storage_written",
         "workgroup",

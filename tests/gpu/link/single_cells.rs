@@ -138,7 +138,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         "statistics",
         &[
             "begin_statistics",
-            "add_sample",
+            "add_observed",
             "merge_block",
             "write_statistic",
         ],
@@ -148,7 +148,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
             "velocity_x",
             "velocity_y",
             "velocity_z",
-            "statistics",
+            "statistics_0",
             "statistics_pass",
             "derived",
         ],

@@ -2,7 +2,8 @@
 
 use super::specialise::{LAYOUTS, bindings_of, forces, names, specialise, third_of_variants};
 use riprap::lattice::{
-    BrickKind, Collision, Equilibrium, Setup, SolidOperator, SurfaceCell, WallModel, collide_stream,
+    Bindings, BrickKind, Collision, Equilibrium, Setup, SolidOperator, SurfaceCell, WallModel,
+    collide_stream,
 };
 
 /// Kinds of bricks, each solid operator once, and whether solids at rest fill cells partially.
@@ -46,7 +47,12 @@ fn the_step_in_variants_of_all_slots() {
             continue;
         }
         let count = bindings_of(&variant);
-        let linked = collide_stream(&setup, count, kind)
+        let sampling = variant.iter().sum::<usize>().is_multiple_of(3);
+        let bindings = Bindings {
+            statistics: u32::from(sampling),
+            ..Bindings::from(count)
+        };
+        let linked = collide_stream(&setup, bindings, kind)
             .link()
             .unwrap_or_else(|error| panic!("{setup:?} {kind:?} {count}: {error}"));
         let wanted = [
@@ -62,6 +68,7 @@ fn the_step_in_variants_of_all_slots() {
             ("surface_slots", with_surface),
             ("surface_fractions", with_surface),
             ("psm_planes_0", operator.is_some()),
+            ("statistics_0", sampling),
             (
                 "face_codes",
                 kind == BrickKind::Psm && setup.has_block_friction(),

@@ -136,14 +136,14 @@ const SAMPLED: u32 = 5;
 /// Steps of a lattice with statistics.
 fn sampled(device: &wgpu::Device, mut lattice: Lattice) -> Result<Subject<'static>, Error> {
     let device = device.clone();
-    let mut statistics = Statistics::of_populations(&device, &lattice)?;
+    let mut statistics = Statistics::new(&device, &mut lattice)?;
     Ok(Subject::Recording(Box::new(move |pass| {
-        lattice.record(pass);
         if lattice.step().is_multiple_of(SAMPLED.into())
             && let Err(error) = statistics.record(&device, &mut lattice, pass)
         {
             eprintln!("no sample is recorded: {error}");
         }
+        lattice.record(pass);
     })))
 }
 

@@ -38,8 +38,7 @@ fn collide_stream(
     // Only the change is transformed back from moments: its round-off is relative to the change, not to
     // f, so that weak forces are not lost in the round-off of f.
     let weights = collide_with_solid(p, index, local, cell, psm, tau_excess, third_order_rate(cell, psm, shear_rate), rho, u, &h);
-    let zero = Real(0.0);
-    add_sample(p, cell, excess, velocity_at_middle(weights, rho, u, fluid_velocity(p, rho, Vector(zero, zero, zero)), &h));
+    add_sample(p, cell, excess, rho, u, weights, &h);
     var change: array<Real, 27>;
     relax(cell, psm, shear_rate, &d, &change);
     add_source(p, u, &change);

@@ -21,12 +21,12 @@ fn all_incoming(at: Neighbourhood) -> array<f32, 27> {
     return f;
 }
 
-fn inside(f: array<f32, 27>) -> Inside {
+fn inside(f: array<f32, 27>, normal: vec3<f32>) -> Inside {
     var excess = f[0u];
     var flux = 0.0;
     for (var q = 1u; q < 27u; q++) { // unroll
         excess += f[q];
-        flux += f[q] * dot(vec3<f32>(C[q]), open_face.normal);
+        flux += f[q] * dot(vec3<f32>(C[q]), normal);
     }
     return Inside(excess, flux / (1.0 + excess));
 }
@@ -42,10 +42,10 @@ fn store_outflow(
         return;
     }
     let here = face_cells[n];
-    let held = held_excess(here.cell);
+    let face = open_faces[here.face];
     let own = all_incoming(neighbourhood(padded_cell(here.cell)));
     let inner = all_incoming(neighbourhood(padded_cell(here.inner)));
-    let inner_state = inside(inner);
+    let inner_state = inside(inner, face.normal);
     let speed = clamp(inverseSqrt(3.0) + inner_state.outward_speed, 0.0, 1.0);
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((here.entering & (1u << q)) != 0u) {
@@ -53,8 +53,8 @@ fn store_outflow(
         }
     }
     // The density on the face, half a cell further out.
-    let face_excess = 1.5 * inside(own).excess - 0.5 * inner_state.excess;
-    outflow_state[27u * n] += open_face.integral * (held - face_excess);
+    let face_excess = 1.5 * inside(own, face.normal).excess - 0.5 * inner_state.excess;
+    outflow_state[27u * n] += face.integral * (held_excess(face, here.cell) - face_excess);
 }
 
 @compute @workgroup_size(64)
@@ -68,10 +68,11 @@ fn apply_outflow(
         return;
     }
     let here = face_cells[n];
-    let held = held_excess(here.cell);
+    let face = open_faces[here.face];
+    let held = held_excess(face, here.cell);
     let cell = neighbourhood(padded_cell(here.cell));
-    let inner_state = inside(all_incoming(neighbourhood(padded_cell(here.inner))));
-    let anchor = open_face.hold * (held - inner_state.excess) + outflow_state[27u * n];
+    let inner_state = inside(all_incoming(neighbourhood(padded_cell(here.inner))), face.normal);
+    let anchor = face.hold * (held - inner_state.excess) + outflow_state[27u * n];
     // All loads precede the first write, so that they are independent.
     var kept: array<f32, 27>;
     for (var q = 1u; q < 27u; q++) { // unroll

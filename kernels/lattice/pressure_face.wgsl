@@ -15,7 +15,6 @@ fn hold_pressure(
         return;
     }
     let here = face_cells[n];
-    let held = held_excess(here.cell);
     let cell = neighbourhood(padded_cell(here.cell));
     let inner = neighbourhood(padded_cell(here.inner));
     var excess = read_incoming(inner, 0u);
@@ -32,6 +31,7 @@ fn hold_pressure(
     }
     // The density is given on the face, half a cell beyond this cell and one and a half beyond the
     // inner one; velocity and stress are as they are inside.
+    let held = held_excess(open_faces[here.face], here.cell);
     let change = (held - excess) * (2.0 / 3.0);
     let u = j / (1.0 + excess);
     let rho_excess = excess + change;

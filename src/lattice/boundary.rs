@@ -40,37 +40,46 @@ impl Lattice {
         );
         passes.extend(self.turbulence_passes(device, &moving, odd)?);
         for stage in 0..=LAST_STAGE {
-            for (face, (_, _, cells)) in geometry.open.iter().enumerate() {
-                let range = geometry.stages.range(cells, stage);
-                for half in self.halves() {
-                    let pass = cell_pass(odd, half, &range);
-                    passes.extend(self.open_pass(device, face, Action::Apply, pass)?);
+            for pressure in [true, false] {
+                let cells = match pressure {
+                    true => &geometry.pressure,
+                    false => &geometry.outflow,
+                };
+                for range in geometry.stages.turns(cells, stage) {
+                    for half in self.halves() {
+                        let kernel = match pressure {
+                            true => ("pressure_face", "hold_pressure"),
+                            false => ("outflow", "apply_outflow"),
+                        };
+                        let pass = cell_pass(odd, half, &range);
+                        passes.push(self.open_pass(device, kernel, pass)?);
+                    }
                 }
             }
-            let range = geometry.stages.range(&geometry.moving, stage);
-            for half in self.halves() {
-                let pass = cell_pass(odd, half, &range);
-                passes.extend(self.moving_pass(device, &moving, pass)?);
+            for range in geometry.stages.turns(&geometry.moving, stage) {
+                for half in self.halves() {
+                    let pass = cell_pass(odd, half, &range);
+                    passes.push(self.moving_pass(device, &moving, pass)?);
+                }
             }
         }
-        passes.extend(self.store_outflow_passes(device, odd)?);
+        passes.extend(self.store_outflow_pass(device, odd)?);
         Ok(passes)
     }
 
-    /// Passes that store the data of outflow faces for the next step; the present state must be complete.
-    pub(super) fn store_outflow_passes(
+    /// The pass that stores the data of outflow faces for the next step, if there are any; the present state must be complete.
+    pub(super) fn store_outflow_pass(
         &self,
         device: &wgpu::Device,
         odd: u32,
-    ) -> Result<Vec<Dispatch>> {
-        let mut passes = Vec::new();
-        for (face, (axis, side, cells)) in self.geometry.open.iter().enumerate() {
-            if let Face::Outflow { .. } = self.setup.faces[*axis][*side] {
-                let pass = cell_pass(odd, 0, &(0..cells.len()));
-                passes.extend(self.open_pass(device, face, Action::Remember, pass)?);
-            }
+    ) -> Result<Option<Dispatch>> {
+        let count = self.geometry.outflow.len();
+        if count == 0 {
+            return Ok(None);
         }
-        Ok(passes)
+        let pass = cell_pass(odd, 0, &(0..count));
+        let kernel = ("outflow", "store_outflow");
+        Ok(Some(self.open_pass(device, kernel, pass)?))
     }
 
     /// Moving walls and inlets.
@@ -79,10 +88,7 @@ impl Lattice {
         device: &wgpu::Device,
         list: &wgpu::Buffer,
         pass: CellPass,
-    ) -> Result<Option<Dispatch>> {
-        if pass.first >= pass.end {
-            return Ok(None);
-        }
+    ) -> Result<Dispatch> {
         let dispatch = CellDispatch {
             program: &self.cell_program("moving_wall"),
             entry: "move_wall",
@@ -91,43 +97,34 @@ impl Lattice {
             constants: &[],
             invocations: pass.end - pass.first,
         };
-        Ok(Some(self.cell_dispatch(device, &dispatch)?))
+        self.cell_dispatch(device, &dispatch)
     }
 
-    /// One pass over cells of a pressure or outflow face.
+    /// One pass over cells of pressure or outflow faces, by the file of its kernel.
     fn open_pass(
         &self,
         device: &wgpu::Device,
-        face: usize,
-        action: Action,
+        (file, entry): (&str, &'static str),
         pass: CellPass,
-    ) -> Result<Option<Dispatch>> {
-        let (axis, side, _) = self.geometry.open[face];
-        let (file, apply) = match self.setup.faces[axis][side] {
-            Face::Pressure { .. } => ("pressure_face", "hold_pressure"),
-            Face::Outflow { .. } => ("outflow", "apply_outflow"),
-            _ => return Ok(None),
+    ) -> Result<Dispatch> {
+        let open = &self.buffers.open;
+        let cells = match file {
+            "outflow" => &open.outflow,
+            _ => &open.pressure,
         };
-        if pass.first >= pass.end {
-            return Ok(None);
-        }
-        let (list, outflow_state) = &self.buffers.open_faces[face];
         let dispatch = CellDispatch {
             program: &self.cell_program(file),
-            entry: match action {
-                Action::Apply => apply,
-                Action::Remember => "store_outflow",
-            },
+            entry,
             pass,
             buffers: &[
-                ("face_cells", list),
-                ("outflow_state", outflow_state),
-                ("open_face", &self.buffers.open_face_uniforms[face]),
+                ("face_cells", cells),
+                ("outflow_state", &open.outflow_state),
+                ("open_faces", &open.faces),
             ],
             constants: &[],
             invocations: pass.end - pass.first,
         };
-        Ok(Some(self.cell_dispatch(device, &dispatch)?))
+        self.cell_dispatch(device, &dispatch)
     }
 
     /// Sets the density of a pressure or outflow face, in lattice units; it holds from the next submission on.
@@ -142,8 +139,8 @@ impl Lattice {
         density: f64,
     ) -> Result<()> {
         let refused = |message: String| Err(Error::argument(face_name(axis, side), message));
-        let is_it = |(a, s, _): &(usize, usize, _)| (*a, *s) == (axis, side);
-        let Some(number) = self.geometry.open.iter().position(is_it) else {
+        let face = self.setup.faces.get(axis).and_then(|faces| faces.get(side));
+        let Some(Face::Pressure { .. } | Face::Outflow { .. }) = face else {
             return refused("this face is not open, or there is none".into());
         };
         if !(density > 0.0 && (density as f32).is_finite()) {
@@ -153,11 +150,12 @@ impl Lattice {
         }
         match &mut self.setup.faces[axis][side] {
             Face::Pressure { density: old } | Face::Outflow { density: old } => *old = density,
-            _ => return refused("this face holds no density".into()),
+            _ => {}
         }
         let content = OpenFace::of(&self.setup, &self.grid, axis, side);
-        let buffer = &self.buffers.open_face_uniforms[number];
-        queue.write_buffer(buffer, 0, bytemuck::bytes_of(&content));
+        let place = ((2 * axis + side) * size_of::<OpenFace>()) as u64;
+        let faces = &self.buffers.open.faces;
+        queue.write_buffer(faces, place, bytemuck::bytes_of(&content));
         Ok(())
     }
 
@@ -236,13 +234,4 @@ pub(super) fn cell_pass(odd: u32, half: u32, range: &Range<usize>) -> CellPass {
         first: range.start as u32,
         end: range.end as u32,
     }
-}
-
-/// Action of a pass over an open face.
-#[derive(Clone, Copy)]
-enum Action {
-    /// Writes the entering populations.
-    Apply,
-    /// Stores data for the next step.
-    Remember,
 }

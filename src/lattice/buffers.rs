@@ -39,10 +39,40 @@ pub(super) struct Buffers {
     pub(super) psm_slots: Option<wgpu::Buffer>,
     /// Cells that solids at rest fill in part.
     pub(super) surface: Option<Surface>,
-    /// Cells of each open face, and what they carry from step to step.
-    pub(super) open_faces: Vec<(wgpu::Buffer, wgpu::Buffer)>,
-    /// What its passes take, an [`OpenFace`].
-    pub(super) open_face_uniforms: Vec<wgpu::Buffer>,
+    pub(super) open: OpenBuffers,
+}
+
+/// The buffers of pressure and outflow faces.
+#[derive(Debug)]
+pub(super) struct OpenBuffers {
+    /// An [`OpenFace`] for each face of the domain.
+    pub faces: wgpu::Buffer,
+    /// Cells of pressure faces, or a default one.
+    pub pressure: wgpu::Buffer,
+    /// Cells of outflow faces likewise.
+    pub outflow: wgpu::Buffer,
+    /// What the cells of outflow faces carry from step to step, 27 numbers each.
+    pub outflow_state: wgpu::Buffer,
+}
+
+impl OpenBuffers {
+    fn new(device: &wgpu::Device, setup: &Setup, grid: &Grid, geometry: &Geometry) -> Self {
+        let faces: [OpenFace; 6] =
+            std::array::from_fn(|face| OpenFace::of(setup, grid, face / 2, face % 2));
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let list = |cells: &[FaceCell]| {
+            let none = [FaceCell::default()];
+            let cells = if cells.is_empty() { &none } else { cells };
+            storage(device, "face cells", bytemuck::cast_slice(cells))
+        };
+        let carrying = geometry.outflow.len().max(1) as u64;
+        Self {
+            faces: filled(device, "open faces", bytemuck::cast_slice(&faces), usage),
+            pressure: list(&geometry.pressure),
+            outflow: list(&geometry.outflow),
+            outflow_state: zeroed(device, "outflow_state", 108 * carrying),
+        }
+    }
 }
 
 /// Names of the bindings of fields of vectors.
@@ -154,28 +184,9 @@ pub(super) fn make_buffers(
     let list = |label, values: &[u32]| {
         (!values.is_empty()).then(|| storage(device, label, bytemuck::cast_slice(values)))
     };
-    let open_faces = geometry.open.iter().map(|(_, _, cells)| {
-        // A face that solids close entirely keeps one entry that no direction enters.
-        let none = [FaceCell::default()];
-        let cells = if cells.is_empty() { &none[..] } else { cells };
-        let outflow_state = zeroed(device, "outflow_state", 108 * cells.len() as u64);
-        (
-            storage(device, "face cells", bytemuck::cast_slice(cells)),
-            outflow_state,
-        )
-    });
     Buffers {
         populations,
-        open_faces: open_faces.collect(),
-        open_face_uniforms: geometry
-            .open
-            .iter()
-            .map(|(axis, side, _)| {
-                let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-                let content = OpenFace::of(setup, grid, *axis, *side);
-                filled(device, "open face", bytemuck::bytes_of(&content), usage)
-            })
-            .collect(),
+        open: OpenBuffers::new(device, setup, grid, geometry),
         names,
         velocity: match (setup.wale, setup.wale_interval) {
             (None, _) => Vec::new(),

@@ -8,8 +8,9 @@ impl Lattice {
         let buffers = &self.buffers;
         let size = |buffer: &Option<wgpu::Buffer>| buffer.as_ref().map_or(0, wgpu::Buffer::size);
         let velocity = buffers.velocity.iter().flatten();
-        let open = buffers.open_faces.iter();
         let geometry = &self.geometry;
+        let open = &buffers.open;
+        let has_open = !(geometry.pressure.is_empty() && geometry.outflow.is_empty());
         // The kernels of even and odd steps keep a list each.
         let list = |bytes: usize| 2 * bytes as u64;
         let [lists, psm_planes] = self.streams.bytes();
@@ -35,7 +36,10 @@ impl Lattice {
             ),
             (
                 "open faces",
-                open.map(|(cells, outflow_state)| cells.size() + outflow_state.size())
+                [&open.pressure, &open.outflow, &open.outflow_state]
+                    .iter()
+                    .filter(|_| has_open)
+                    .map(|buffer| buffer.size())
                     .sum(),
             ),
             (

@@ -89,10 +89,13 @@ impl Lattice {
             values.extend(self.grid.domain().map(of));
         }
         let mut outflow_state = Vec::new();
-        for (face, (_, buffer)) in self.buffers.open_faces.iter().enumerate() {
-            let count = (buffer.size() / 4) as usize;
-            let own: Vec<f32> = readback.read(device, queue, buffer, count).await?;
-            for place in self.places(face) {
+        let outflow = &self.geometry.outflow;
+        if !outflow.is_empty() {
+            let buffer = &self.buffers.open.outflow_state;
+            let own: Vec<f32> = readback
+                .read(device, queue, buffer, 27 * outflow.len())
+                .await?;
+            for place in self.geometry.stages.canonical(outflow) {
                 outflow_state.extend_from_slice(&own[27 * place..27 * (place + 1)]);
             }
         }
@@ -128,10 +131,8 @@ impl Lattice {
             let message = "the saved state has no eddy viscosity, which an odd step needs; continue with `wale_interval` 1";
             return wrong(message.into());
         }
-        let faces = self.buffers.open_faces.iter();
-        let outflow_state: u64 = faces.map(|(_, buffer)| buffer.size() / 4).sum();
-        if state.outflow_state.len() as u64 != outflow_state {
-            return wrong("the saved state has other pressure or outflow faces".into());
+        if state.outflow_state.len() != 27 * self.geometry.outflow.len() {
+            return wrong("the saved state has other outflow faces".into());
         }
         Ok(())
     }
@@ -199,16 +200,13 @@ impl Lattice {
             }
             queue.submit([encoder.finish()]);
         }
-        let mut outflow_state = state.outflow_state.as_slice();
-        for (face, (_, buffer)) in self.buffers.open_faces.iter().enumerate() {
-            let (own, rest) = outflow_state.split_at((buffer.size() / 4) as usize);
-            let mut values = own.to_vec();
-            for (place, of_cell) in self.places(face).into_iter().zip(own.chunks(27)) {
-                values[27 * place..27 * (place + 1)].copy_from_slice(of_cell);
-            }
-            queue.write_buffer(buffer, 0, bytemuck::cast_slice(&values));
-            outflow_state = rest;
+        let mut outflow_state = vec![0.0; state.outflow_state.len()];
+        let places = self.geometry.stages.canonical(&self.geometry.outflow);
+        for (place, of_cell) in places.into_iter().zip(state.outflow_state.chunks(27)) {
+            outflow_state[27 * place..27 * (place + 1)].copy_from_slice(of_cell);
         }
+        let buffer = &self.buffers.open.outflow_state;
+        queue.write_buffer(buffer, 0, bytemuck::cast_slice(&outflow_state));
         Ok(())
     }
 
@@ -222,15 +220,6 @@ impl Lattice {
     fn near_wall_of_blocks(&self) -> Option<&wgpu::Buffer> {
         let near_wall = self.buffers.near_wall_viscosity.as_ref();
         near_wall.filter(|_| self.setup.solid_operator.is_some())
-    }
-
-    /// Indices of the cells of an open face in its buffer, in the order of a state; the buffer of a closed face has one cell.
-    fn places(&self, face: usize) -> Vec<usize> {
-        let (_, _, cells) = &self.geometry.open[face];
-        match cells.is_empty() {
-            true => vec![0],
-            false => self.geometry.stages.canonical(cells),
-        }
     }
 
     fn exchange(&self, device: &wgpu::Device, entry: &'static str, half: u32) -> Result<Exchange> {

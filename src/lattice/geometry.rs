@@ -1,6 +1,11 @@
 //! The surroundings of each cell: flags, reflecting links, moving and open faces, bricks.
 
-use super::{Face, Grid, Setup, stages::Stages, surface, wall_model::Walls};
+use super::{
+    Face, Grid, Setup,
+    stages::{FACES, Stages},
+    surface,
+    wall_model::Walls,
+};
 use crate::gpu::Processor;
 
 /// Directions in the order of `kernels/lattice/lattice.wgsl`, opposites adjacent.
@@ -67,7 +72,7 @@ pub struct MovingCell {
     pub through: [u32; 3],
 }
 
-/// A cell at an open face, as `face_cells.wgsl` reads it.
+/// A cell at an open face of the domain, as `face_cells.wgsl` reads it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct FaceCell {
@@ -77,6 +82,11 @@ pub struct FaceCell {
     pub inner: u32,
     /// Directions that enter through the face, one bit each.
     pub entering: u32,
+    /// The face: 0 to 5 for x−, x+, y−, …
+    pub face: u32,
+    /// Its turn among the dispatches of a stage: one after the other where several faces of a cell without an inner neighbour
+    /// read the cell itself.
+    pub turn: u32,
 }
 
 /// A reflected population, as `links.wgsl` reads it.
@@ -103,9 +113,11 @@ pub struct Geometry {
     pub walls: Walls,
     /// Cells at moving walls and velocity faces; in the order of their stages.
     pub moving: Vec<MovingCell>,
-    /// Axis and side of each pressure or outflow face with its cells in the order of their stages.
-    pub open: Vec<(usize, usize, Vec<FaceCell>)>,
-    /// The order in which the cells of both are completed.
+    /// Cells of pressure faces in the order of their stages, once for each face.
+    pub pressure: Vec<FaceCell>,
+    /// Cells of outflow faces likewise.
+    pub outflow: Vec<FaceCell>,
+    /// The order in which the cells of these three are completed.
     pub stages: Stages,
     /// Bricks of plain fluid that run the kernel without flags.
     pub plain: Vec<u32>,
@@ -117,6 +129,19 @@ pub struct Geometry {
     pub solid_bricks: u32,
     /// Fluid cells.
     pub fluid_cells: u64,
+}
+
+/// Sets the turns of the faces of each cell, which follow one another in the list.
+fn set_turns(cells: &mut [FaceCell]) {
+    for faces in cells.chunk_by_mut(|a, b| a.cell == b.cell) {
+        if faces.len() == 1 {
+            continue;
+        }
+        let alone = |face: &&mut FaceCell| face.inner == face.cell;
+        for (turn, face) in (1..).zip(faces.iter_mut().filter(alone)) {
+            face.turn = turn;
+        }
+    }
 }
 
 pub(super) struct Survey<'a> {
@@ -143,16 +168,6 @@ impl Geometry {
             flags: vec![0x8080_8080; grid.element_count() as usize],
             ..Self::default()
         };
-        for axis in 0..3 {
-            for side in 0..2 {
-                if matches!(
-                    setup.faces[axis][side],
-                    Face::Pressure { .. } | Face::Outflow { .. }
-                ) {
-                    geometry.open.push((axis, side, Vec::new()));
-                }
-            }
-        }
         for cell in grid.domain() {
             if survey.is_solid(cell) {
                 continue;
@@ -171,11 +186,13 @@ impl Geometry {
         let links = &mut geometry.links;
         links.sort_unstable_by_key(|link| (link.directions, link.to));
         geometry.walls.own_layers(grid);
-        geometry.stages = Stages::new(&geometry.open);
-        geometry.stages.sort(&mut geometry.moving, grid);
-        for (_, _, cells) in &mut geometry.open {
-            geometry.stages.sort(cells, grid);
+        for cells in [&mut geometry.pressure, &mut geometry.outflow] {
+            set_turns(cells);
         }
+        geometry.stages = Stages::new([&geometry.pressure, &geometry.outflow]);
+        geometry.stages.sort(&mut geometry.moving, grid);
+        geometry.stages.sort(&mut geometry.pressure, grid);
+        geometry.stages.sort(&mut geometry.outflow, grid);
         geometry.sort_bricks(grid);
         geometry.surface = surface::bricks(setup, grid);
         for list in [&mut geometry.mixed, &mut geometry.plain] {
@@ -195,7 +212,6 @@ impl Geometry {
 
     /// Adds the links of a cell and returns its flags.
     fn survey_cell(&mut self, survey: &Survey<'_>, cell: [u32; 3]) -> u8 {
-        let grid = survey.grid;
         let mut bits = 0;
         let surroundings: [Beyond; 27] = std::array::from_fn(|q| match q {
             0 => Beyond::Fluid,
@@ -227,27 +243,23 @@ impl Geometry {
                     self.links.push(link);
                 }
                 Beyond::Open(axis, side) => {
-                    let found = self.open.iter_mut().find(|f| (f.0, f.1) == (axis, side));
-                    if let Some((_, _, cells)) = found {
-                        let here = survey.padded_index(cell);
-                        if cells.last().is_none_or(|last| last.cell != here) {
-                            let mut inward = [0; 3];
-                            inward[axis] = if side == 0 { 1 } else { -1 };
-                            let inner = grid.neighbour(cell, inward);
-                            let fluid = grid.contains(inner) && !survey.is_solid(inner);
-                            cells.push(FaceCell {
-                                cell: here,
-                                inner: if fluid {
-                                    survey.padded_index(inner)
-                                } else {
-                                    here
-                                },
-                                entering: 0,
-                            });
-                        }
-                        if let Some(last) = cells.last_mut() {
-                            last.entering |= 1 << enters;
-                        }
+                    let cells = match survey.setup.faces[axis][side] {
+                        Face::Outflow { .. } => &mut self.outflow,
+                        _ => &mut self.pressure,
+                    };
+                    let face = (2 * axis + side) as u32;
+                    let here = survey.padded_index(cell);
+                    let mut last = cells.iter_mut().rev().take(FACES);
+                    let found = last.find(|last| (last.cell, last.face) == (here, face));
+                    match found {
+                        Some(found) => found.entering |= 1 << enters,
+                        None => cells.push(FaceCell {
+                            cell: here,
+                            inner: survey.inner(cell, axis, side),
+                            entering: 1 << enters,
+                            face,
+                            turn: 0,
+                        }),
                     }
                 }
             }
@@ -345,6 +357,15 @@ impl Survey<'_> {
     pub(super) fn padded_index(&self, [x, y, z]: [u32; 3]) -> u32 {
         let [nx, ny, _] = self.grid.padded();
         x + nx * (y + ny * z)
+    }
+
+    /// The neighbour of a cell on the inside of a face, or the cell itself where that is not fluid.
+    fn inner(&self, cell: [u32; 3], axis: usize, side: usize) -> u32 {
+        let mut inward = [0; 3];
+        inward[axis] = if side == 0 { 1 } else { -1 };
+        let inner = self.grid.neighbour(cell, inward);
+        let fluid = self.grid.contains(inner) && !self.is_solid(inner);
+        self.padded_index(if fluid { inner } else { cell })
     }
 
     /// Target of direction `q`. If it crosses several faces, the first of solid, wall, moving

@@ -7,15 +7,27 @@ use std::ops::Range;
 /// Most open faces that one cell touches with an inner neighbour behind each: one an axis.
 pub const LAST_STAGE: usize = 3;
 
+/// Faces of a cell.
+pub const FACES: usize = 6;
+
 /// A cell of a face.
 pub trait OfFace {
     /// Its index in the padded grid.
     fn cell(&self) -> u32;
+
+    /// Its turn among the dispatches of a stage.
+    fn turn(&self) -> u32 {
+        0
+    }
 }
 
 impl OfFace for FaceCell {
     fn cell(&self) -> u32 {
         self.cell
+    }
+
+    fn turn(&self) -> u32 {
+        self.turn
     }
 }
 
@@ -35,20 +47,22 @@ pub struct Stages(HashMap<u32, usize>);
 
 impl Stages {
     /// Counts the faces of each cell.
-    pub fn new(open: &[(usize, usize, Vec<FaceCell>)]) -> Self {
+    pub fn new(open: [&[FaceCell]; 2]) -> Self {
         let mut faces = HashMap::new();
-        for cell in open.iter().flat_map(|(_, _, cells)| cells) {
+        for cell in open.into_iter().flatten() {
             *faces.entry(cell.cell).or_default() += 1;
         }
         Self(faces)
     }
 
-    fn of(&self, cell: &impl OfFace) -> usize {
+    /// Stage and turn of a cell.
+    fn of(&self, cell: &impl OfFace) -> (usize, u32) {
         let faces = self.0.get(&cell.cell()).copied();
-        faces.unwrap_or_default().min(LAST_STAGE)
+        let stage = faces.unwrap_or_default().min(LAST_STAGE);
+        (stage, cell.turn())
     }
 
-    /// Puts the cells of earlier stages first, and those of a stage in the order of memory.
+    /// Puts the cells of earlier stages and turns first, and those of a turn in the order of memory.
     pub fn sort(&self, cells: &mut [impl OfFace], grid: &Grid) {
         cells.sort_by_key(|cell| (self.of(cell), grid.scalar_of(grid.padded_cell(cell.cell()))));
     }
@@ -60,9 +74,13 @@ impl Stages {
         places
     }
 
-    /// The cells of a stage in a sorted list.
-    pub fn range(&self, cells: &[impl OfFace], stage: usize) -> Range<usize> {
-        let first = cells.partition_point(|cell| self.of(cell) < stage);
-        first..cells.partition_point(|cell| self.of(cell) <= stage)
+    /// The cells of the turns of a stage in a sorted list.
+    pub fn turns(&self, cells: &[impl OfFace], stage: usize) -> Vec<Range<usize>> {
+        let range = |turn| {
+            let first = cells.partition_point(|cell| self.of(cell) < (stage, turn));
+            first..cells.partition_point(|cell| self.of(cell) <= (stage, turn))
+        };
+        let turns = (0..=FACES as u32).map(range);
+        turns.filter(|range| !range.is_empty()).collect()
     }
 }

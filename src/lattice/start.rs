@@ -97,17 +97,13 @@ impl Lattice {
 
     /// Has outflow faces carry the present state to the next step.
     fn store_outflow_faces(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
-        for (_, outflow_state) in &self.buffers.open_faces {
-            queue.write_buffer(outflow_state, 0, &vec![0; outflow_state.size() as usize]);
-        }
-        let passes = self.store_outflow_passes(device, self.parity() as u32)?;
+        let outflow_state = &self.buffers.open.outflow_state;
+        queue.write_buffer(outflow_state, 0, &vec![0; outflow_state.size() as usize]);
+        let Some(store) = self.store_outflow_pass(device, self.parity() as u32)? else {
+            return Ok(());
+        };
         let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            passes
-                .iter()
-                .for_each(|dispatch| dispatch.record(&mut pass));
-        }
+        store.record(&mut encoder.begin_compute_pass(&Default::default()));
         queue.submit([encoder.finish()]);
         Ok(())
     }

@@ -60,7 +60,11 @@ pub fn bytes_per_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
     let open = |cell: &FaceCell| {
         u64::from(Q + cell.entering.count_ones()) * word + count(size_of::<FaceCell>())
     };
-    let open: u64 = geometry.open.iter().flat_map(|(_, _, c)| c).map(open).sum();
+    let open: u64 = [&geometry.pressure, &geometry.outflow]
+        .into_iter()
+        .flatten()
+        .map(open)
+        .sum();
     geometry.fluid_cells * bytes_per_cell(setup)
         + flags
         + lists

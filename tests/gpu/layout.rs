@@ -81,6 +81,8 @@ fn structures_of_the_lattice() {
         ("cell", offset_of!(FaceCell, cell)),
         ("inner", offset_of!(FaceCell, inner)),
         ("entering", offset_of!(FaceCell, entering)),
+        ("face", offset_of!(FaceCell, face)),
+        ("turn", offset_of!(FaceCell, turn)),
     ];
     let pass = [
         ("odd", offset_of!(CellPass, odd)),

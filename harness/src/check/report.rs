@@ -201,7 +201,6 @@ impl Report {
 impl Cells {
     fn of(lattice: &Lattice) -> Self {
         let (grid, geometry) = (lattice.grid(), lattice.geometry());
-        let open = geometry.open.iter().map(|(_, _, cells)| cells.len() as u64);
         Self {
             size: grid.cells,
             fluid: geometry.fluid_cells,
@@ -212,7 +211,7 @@ impl Cells {
             idle_bricks: u64::from(geometry.solid_bricks),
             links: geometry.links.len() as u64,
             moving: geometry.moving.len() as u64,
-            open: open.sum(),
+            open: (geometry.pressure.len() + geometry.outflow.len()) as u64,
             wall_faces: geometry.walls.area,
             modelled_faces: geometry.walls.cells.len() as u64,
         }

@@ -66,12 +66,12 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
     (
         "pressure_face",
         &["hold_pressure"],
-        &["cell_pass", "open_face", "face_cells"],
+        &["cell_pass", "open_faces", "face_cells"],
     ),
     (
         "outflow",
         &["apply_outflow", "store_outflow"],
-        &["cell_pass", "open_face", "face_cells", "outflow_state"],
+        &["cell_pass", "open_faces", "face_cells", "outflow_state"],
     ),
     (
         "exchange",

@@ -49,7 +49,7 @@
 //! // A periodic box of 16³ cells with the lattice viscosity 0.01.
 //! let mut lattice = Lattice::new(&device, Setup::periodic([16, 16, 16], 0.01))?;
 //! lattice.start(&device, &queue, &State::rest(16 * 16 * 16), true)?;
-//! let observer = Observer::new(&device, &lattice)?;
+//! let mut observer = Observer::new(&device, &lattice)?;
 //!
 //! let mut encoder = device.create_command_encoder(&Default::default());
 //! {

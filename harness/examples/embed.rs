@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut lattice = Lattice::new(&device, Setup::periodic(CELLS, NU))?;
     lattice.start(&device, &queue, &vortices(), true)?;
-    let observer = Observer::new(&device, &lattice)?;
+    let mut observer = Observer::new(&device, &lattice)?;
 
     let rows = u64::from(CELLS[1] * CELLS[2]);
     let buffer = |bytes, usage| {

@@ -151,6 +151,7 @@ impl Lattice {
         let cells = self.grid.cell_count();
         self.step = state.step;
         self.closed = true;
+        self.revision += 1;
         self.write_mean_velocities(queue);
         self.set_travelled(queue, &state.travelled);
         if let Some(guard) = &self.buffers.guard {

@@ -60,6 +60,8 @@ pub struct Lattice {
     pub(super) step: u64,
     /// Whether the boundary passes of the coming step have been recorded.
     pub(super) closed: bool,
+    /// Changes with every change of the state.
+    pub(super) revision: u64,
 }
 
 impl Lattice {
@@ -96,6 +98,7 @@ impl Lattice {
             buffers,
             step: 0,
             closed: false,
+            revision: 0,
         };
         for odd in [0, 1] {
             lattice.boundary[odd as usize] = lattice.boundary_passes(device, odd)?;
@@ -145,6 +148,12 @@ impl Lattice {
             .chain(self.streams.kernels(parity))
     }
 
+    /// The kernels of a step that adds a sample to the statistics over time, in place of those of collision and streaming, each
+    /// with its workgroups; none without such statistics.
+    pub fn sampling_kernels(&self, odd: bool) -> impl Iterator<Item = (&Kernel, u32)> {
+        self.streams.sampling_kernels(usize::from(odd))
+    }
+
     /// Records one step into the caller's pass.
     pub fn record(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.record_psm(pass);
@@ -177,6 +186,7 @@ impl Lattice {
             dispatch.record(pass);
         }
         self.step += 1;
+        self.revision += 1;
         self.closed = false;
         self.streams.samples = false;
     }
@@ -229,6 +239,7 @@ impl Lattice {
     /// [`Lattice::psm_planes`]; [`Lattice::set_psm_bricks`] calls it for changed bricks.
     pub fn blocks_have_moved(&mut self) {
         self.faces_found = false;
+        self.revision += 1;
     }
 
     /// The planes of partially saturated cells, of the bricks that blocks reach, in the order of

@@ -23,6 +23,7 @@ impl Lattice {
         let words = force_words(force);
         finite("force", &words)?;
         *old = force;
+        self.revision += 1;
         queue.write_buffer(buffer, 0, bytemuck::cast_slice(&words));
         Ok(())
     }

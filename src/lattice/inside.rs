@@ -116,6 +116,7 @@ impl Observer {
                 Some((kernel, bind, count.div_ceil(64)))
             }
         };
+        self.holds = None;
         self.kept = Some(Kept {
             step: lattice.step(),
             dispatch,

@@ -20,7 +20,7 @@
 //!
 //! let mut lattice = Lattice::new(&device, setup)?;
 //! lattice.start(&device, &queue, &State::rest(32 * 16 * 16), true)?;
-//! let observer = Observer::new(&device, &lattice)?;
+//! let mut observer = Observer::new(&device, &lattice)?;
 //! let mut encoder = device.create_command_encoder(&Default::default());
 //! {
 //!     let mut pass = encoder.begin_compute_pass(&Default::default());

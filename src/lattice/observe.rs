@@ -70,6 +70,8 @@ pub struct Fault {
 pub struct Observer {
     /// A buffer of the lattice, which identifies it.
     of: wgpu::Buffer,
+    /// Revision of the lattice whose state the fields hold, and whether with the action of solids.
+    pub(super) holds: Option<(u64, bool)>,
     density: wgpu::Buffer,
     velocity: [wgpu::Buffer; 3],
     /// Created when first requested.
@@ -126,6 +128,7 @@ impl Observer {
         };
         Ok(Self {
             of: lattice.buffers.populations[0].clone(),
+            holds: None,
             density,
             velocity,
             derived: None,
@@ -145,7 +148,11 @@ impl Observer {
     ///
     /// # Errors
     /// If this observes another lattice, or the device cannot bind the planes of blocks.
-    pub fn record(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
+    pub fn record(
+        &mut self,
+        lattice: &mut Lattice,
+        pass: &mut wgpu::ComputePass<'_>,
+    ) -> Result<()> {
         self.record_cells(lattice, pass)?;
         if self
             .kept
@@ -179,9 +186,10 @@ impl Observer {
         lattice: &mut Lattice,
     ) -> Result<[Vec<f32>; 3]> {
         let mut encoder = device.create_command_encoder(&Default::default());
-        self.record_cells(
+        self.hold(
             lattice,
             &mut encoder.begin_compute_pass(&Default::default()),
+            false,
         )?;
         queue.submit([encoder.finish()]);
         let count = lattice.grid.cell_count();
@@ -193,10 +201,35 @@ impl Observer {
     }
 
     /// The same without the action of solids on the momentum of a cell in the middle of a step.
-    fn record_cells(&self, lattice: &mut Lattice, pass: &mut wgpu::ComputePass<'_>) -> Result<()> {
+    fn record_cells(
+        &mut self,
+        lattice: &mut Lattice,
+        pass: &mut wgpu::ComputePass<'_>,
+    ) -> Result<()> {
         self.check(lattice)?;
         lattice.close(pass);
         self.macroscopic[lattice.parity()].record(pass);
+        self.holds = None;
+        Ok(())
+    }
+
+    /// Records the present state, with the action of solids or without it, unless the fields hold it. The caller submits the pass.
+    fn hold(
+        &mut self,
+        lattice: &mut Lattice,
+        pass: &mut wgpu::ComputePass<'_>,
+        with_solids: bool,
+    ) -> Result<()> {
+        let with_solids = with_solids && self.velocity_psm.is_some();
+        let present = Some((lattice.revision, with_solids));
+        if self.holds == present {
+            return self.check(lattice);
+        }
+        match with_solids {
+            true => self.record(lattice, pass)?,
+            false => self.record_cells(lattice, pass)?,
+        }
+        self.holds = present;
         Ok(())
     }
 
@@ -219,19 +252,20 @@ impl Observer {
         &self.velocity
     }
 
+    /// Has the fields hold the present state, then runs a kernel of derived quantities, by its place.
     fn submit(
-        &self,
+        &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
-        then: Option<&Dispatch>,
+        then: Option<usize>,
     ) -> Result<()> {
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
-            self.record(lattice, &mut pass)?;
-            if let Some(dispatch) = then {
-                dispatch.record(&mut pass);
+            self.hold(lattice, &mut pass, true)?;
+            if let Some(derived) = then {
+                self.derive[derived].1.record(&mut pass);
             }
         }
         queue.submit([encoder.finish()]);
@@ -325,7 +359,7 @@ impl Observer {
                 self.derive.len() - 1
             }
         };
-        self.submit(device, queue, lattice, Some(&self.derive[at].1))?;
+        self.submit(device, queue, lattice, Some(at))?;
         let readback = &mut self.readback;
         let values = match on {
             None => readback.read(device, queue, &buffer, cells).await,
@@ -401,7 +435,7 @@ impl Observer {
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());
             // The ledger of blocks and fluid uses the contents of the cells.
-            self.record_cells(lattice, &mut pass)?;
+            self.hold(lattice, &mut pass, false)?;
             dispatch.record(&mut pass);
         }
         queue.submit([encoder.finish()]);

@@ -55,6 +55,7 @@ impl Lattice {
         }
         self.step = 0;
         self.closed = true;
+        self.revision += 1;
         if let Some(guard) = &self.buffers.guard {
             queue.write_buffer(guard, 0, bytemuck::cast_slice(&GUARD_START));
         }

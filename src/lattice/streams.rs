@@ -226,6 +226,14 @@ impl Streams {
         streams.map(move |stream| (&stream.steps.kernels[parity], stream.groups))
     }
 
+    /// Those of a step with a sample, if there are statistics.
+    pub fn sampling_kernels(&self, parity: usize) -> impl Iterator<Item = (&Kernel, u32)> {
+        self.streams.iter().filter_map(move |stream| {
+            let steps = stream.sampling.as_ref()?;
+            Some((&steps.kernels[parity], stream.groups))
+        })
+    }
+
     /// Bytes of the lists, and of what blocks leave of cells.
     pub fn bytes(&self) -> [u64; 2] {
         let lists = self

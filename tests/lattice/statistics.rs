@@ -201,7 +201,7 @@ fn samples_that_steps_add_are_those_of_an_observer() {
         for limits in std::iter::once(None).chain(spread.then_some(Some(few))) {
             let rig = limits.map_or_else(Rig::new, Rig::with_limits);
             let mut lattice = rig.start(setup.clone(), &State::rest(count), true);
-            let observer = Observer::new(&rig.device, &lattice).unwrap();
+            let mut observer = Observer::new(&rig.device, &lattice).unwrap();
             let mut observed = Statistics::of_observer(&rig.device, &lattice, &observer).unwrap();
             let mut summed = Statistics::new(&rig.device, &mut lattice).unwrap();
             assert!(Statistics::new(&rig.device, &mut lattice).is_err(), "twice");

@@ -2,10 +2,11 @@
 
 use crate::fixture::Subject;
 use kit::{
+    twin::Solid,
     twin::lattice::W,
     twin::of_setup::{limit, noise, walled},
 };
-use riprap::lattice::{Force, Setup, SolidOperator, Storage};
+use riprap::lattice::{Force, Lattice, Observer, Setup, SolidOperator, State, Storage};
 
 fn bits(subject: &mut Subject) -> Vec<u32> {
     let end = subject.rig.populations(&mut subject.lattice);
@@ -113,4 +114,64 @@ fn lists_of_bricks_that_cannot_be_are_refused() {
     assert!(error.contains("brick 1000"), "{error}");
     let error = refusal(&mut subject, &[list[0], list[1], list[0]]);
     assert!(error.contains("twice"), "{error}");
+}
+
+/// An observer that has read a state reads it again as a new one does, also after sums, which leave out the action of solids, and
+/// after every change of the state.
+#[test]
+fn an_observer_sees_every_change_of_the_state() {
+    let mut setup = Setup::periodic([8, 6, 4], 0.02);
+    setup.brick = [4, 4, 2];
+    setup.solid_operator = Some(SolidOperator::Holdych);
+    setup.force = Force::Constant([1e-3, 0.0, 0.0]);
+    let mut subject = Subject::new(&setup);
+    let bricks = subject.some_bricks();
+    subject.fill(&bricks);
+    let (device, queue) = (subject.rig.device.clone(), subject.rig.queue.clone());
+    let make = |lattice: &Lattice| Observer::new(&device, lattice).unwrap();
+    let mut kept = [(); 3].map(|()| make(&subject.lattice));
+    let saved = subject.rig.populations(&mut subject.lattice);
+    let mut seen = Vec::new();
+    for change in 0..6 {
+        match change {
+            0 | 1 => subject.rig.run(&mut subject.lattice, 1),
+            2 => {
+                let set = subject.lattice.set_force(&queue, [0.0, 2e-3, 0.0]);
+                set.unwrap();
+            }
+            3 => {
+                subject.fill_with(&bricks, |_| Solid::default());
+                subject.lattice.blocks_have_moved();
+            }
+            4 => {
+                let set = subject.lattice.set_populations(&device, &queue, &saved);
+                set.unwrap();
+            }
+            _ => {
+                let rest = State::rest(8 * 6 * 4);
+                let started = subject.lattice.start(&device, &queue, &rest, true);
+                started.unwrap();
+            }
+        }
+        let (rig, lattice) = (&subject.rig, &mut subject.lattice);
+        let state = |observer: &mut Observer, lattice: &mut Lattice| {
+            let read = observer.state(&device, &queue, lattice);
+            rig.wait(read).unwrap()
+        };
+        let sums = |observer: &mut Observer, lattice: &mut Lattice| {
+            let read = observer.sums(&device, &queue, lattice);
+            rig.wait(read).unwrap()
+        };
+        let expected = state(&mut make(lattice), lattice);
+        let expected_sums = sums(&mut make(lattice), lattice);
+        let [of_state, of_sums, of_both] = &mut kept;
+        for _ in 0..2 {
+            assert_eq!(state(of_state, lattice), expected, "change {change}");
+            assert_eq!(sums(of_sums, lattice), expected_sums, "change {change}");
+            assert_eq!(sums(of_both, lattice), expected_sums, "change {change}");
+            assert_eq!(state(of_both, lattice), expected, "change {change}");
+        }
+        seen.push(expected);
+    }
+    assert!(seen.windows(2).all(|pair| pair[0] != pair[1]));
 }

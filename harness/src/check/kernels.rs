@@ -13,7 +13,9 @@ pub fn write(folder: &Path, simulation: &Simulation) -> Result<()> {
         let single = lattice.single_cell_kernels();
         let coupled = simulation.coupled();
         let solid_cells = coupled.as_ref().map(|coupled| coupled.solid_cells());
-        let step = lattice.kernels(false);
+        let step = lattice
+            .kernels(false)
+            .chain(lattice.sampling_kernels(false));
         let blocks = solid_cells.into_iter().flat_map(SolidCells::kernels);
         let faces = solid_cells.into_iter().flat_map(SolidCells::face_kernels);
         let kernels = step.chain(blocks).map(|(kernel, _)| kernel).chain(faces);

@@ -171,6 +171,7 @@ impl Report {
             memory: Memory::of(lattice, simulation),
             kernels: lattice
                 .kernels(false)
+                .chain(lattice.sampling_kernels(false))
                 .chain(solid_cells.into_iter().flat_map(SolidCells::kernels))
                 .map(Kernel::of)
                 .collect(),

@@ -39,16 +39,16 @@ fn merged(plane: u32, n: u32) -> f32 {
     return before + weight * (own + (1.0 - weight) * shift - before);
 }
 
-// A domain cell by its place among the scalars.
-struct Listed {
+// A cell by the place of its sums, the order of the scalars; the padding is outside.
+struct CellOfSums {
     scalar: u32,
     cell: vec3<u32>,
     outside: bool,
 }
 
-fn listed_cell(n: u32) -> Listed {
+fn cell_of_sums(n: u32) -> CellOfSums {
     let cell = cell_of_scalar(n);
-    return Listed(n, cell, n >= NX * NY * NZ * LANES_OF_ELEMENT || any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z)));
+    return CellOfSums(n, cell, n >= NX * NY * NZ * LANES_OF_ELEMENT || any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z)));
 }
 
 // The first sample is the mean so far.
@@ -58,7 +58,7 @@ fn begin_statistics(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let at = listed_cell(invocation(group, groups, local));
+    let at = cell_of_sums(invocation(group, groups, local));
     if (at.outside) {
         return;
     }
@@ -77,7 +77,7 @@ fn add_observed(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let at = listed_cell(invocation(group, groups, local));
+    let at = cell_of_sums(invocation(group, groups, local));
     if (at.outside) {
         return;
     }
@@ -92,7 +92,7 @@ fn merge_block(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let at = listed_cell(invocation(group, groups, local));
+    let at = cell_of_sums(invocation(group, groups, local));
     if (at.outside) {
         return;
     }
@@ -111,7 +111,7 @@ fn write_statistic(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let at = listed_cell(invocation(group, groups, local));
+    let at = cell_of_sums(invocation(group, groups, local));
     if (at.outside) {
         return;
     }

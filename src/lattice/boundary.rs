@@ -40,19 +40,14 @@ impl Lattice {
         );
         passes.extend(self.turbulence_passes(device, &moving, odd)?);
         for stage in 0..=LAST_STAGE {
-            for pressure in [true, false] {
-                let cells = match pressure {
-                    true => &geometry.pressure,
-                    false => &geometry.outflow,
-                };
+            for (kind, cells) in [
+                (OpenKind::Pressure, &geometry.pressure),
+                (OpenKind::Outflow, &geometry.outflow),
+            ] {
                 for range in geometry.stages.turns(cells, stage) {
                     for half in self.halves() {
-                        let kernel = match pressure {
-                            true => ("pressure_face", "hold_pressure"),
-                            false => ("outflow", "apply_outflow"),
-                        };
                         let pass = cell_pass(odd, half, &range);
-                        passes.push(self.open_pass(device, kernel, pass)?);
+                        passes.push(self.open_pass(device, kind, kind.apply(), pass)?);
                     }
                 }
             }
@@ -78,8 +73,8 @@ impl Lattice {
             return Ok(None);
         }
         let pass = cell_pass(odd, 0, &(0..count));
-        let kernel = ("outflow", "store_outflow");
-        Ok(Some(self.open_pass(device, kernel, pass)?))
+        let store = self.open_pass(device, OpenKind::Outflow, "store_outflow", pass)?;
+        Ok(Some(store))
     }
 
     /// Moving walls and inlets.
@@ -100,17 +95,18 @@ impl Lattice {
         self.cell_dispatch(device, &dispatch)
     }
 
-    /// One pass over cells of pressure or outflow faces, by the file of its kernel.
+    /// One pass over cells of pressure or outflow faces.
     fn open_pass(
         &self,
         device: &wgpu::Device,
-        (file, entry): (&str, &'static str),
+        kind: OpenKind,
+        entry: &'static str,
         pass: CellPass,
     ) -> Result<Dispatch> {
         let open = &self.buffers.open;
-        let cells = match file {
-            "outflow" => &open.outflow,
-            _ => &open.pressure,
+        let (file, cells) = match kind {
+            OpenKind::Pressure => ("pressure_face", &open.pressure),
+            OpenKind::Outflow => ("outflow", &open.outflow),
         };
         let dispatch = CellDispatch {
             program: &self.cell_program(file),
@@ -139,8 +135,9 @@ impl Lattice {
         density: f64,
     ) -> Result<()> {
         let refused = |message: String| Err(Error::argument(face_name(axis, side), message));
-        let face = self.setup.faces.get(axis).and_then(|faces| faces.get(side));
-        let Some(Face::Pressure { .. } | Face::Outflow { .. }) = face else {
+        let faces = self.setup.faces.get_mut(axis);
+        let face = faces.and_then(|faces| faces.get_mut(side));
+        let Some(Face::Pressure { density: old } | Face::Outflow { density: old }) = face else {
             return refused("this face is not open, or there is none".into());
         };
         if !(density > 0.0 && (density as f32).is_finite()) {
@@ -148,10 +145,7 @@ impl Lattice {
                 "its density is {density}; give a number greater than 0"
             ));
         }
-        match &mut self.setup.faces[axis][side] {
-            Face::Pressure { density: old } | Face::Outflow { density: old } => *old = density,
-            _ => {}
-        }
+        *old = density;
         let content = OpenFace::of(&self.setup, &self.grid, axis, side);
         let place = ((2 * axis + side) * size_of::<OpenFace>()) as u64;
         let faces = &self.buffers.open.faces;
@@ -233,5 +227,22 @@ pub(super) fn cell_pass(odd: u32, half: u32, range: &Range<usize>) -> CellPass {
         half,
         first: range.start as u32,
         end: range.end as u32,
+    }
+}
+
+/// Kinds of open faces.
+#[derive(Clone, Copy)]
+enum OpenKind {
+    Pressure,
+    Outflow,
+}
+
+impl OpenKind {
+    /// Entry point of the kernel that writes the entering populations.
+    fn apply(self) -> &'static str {
+        match self {
+            Self::Pressure => "hold_pressure",
+            Self::Outflow => "apply_outflow",
+        }
     }
 }

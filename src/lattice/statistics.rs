@@ -177,7 +177,7 @@ impl Statistics {
         let streams = &mut lattice.streams;
         streams.add_statistics(device, of_lattice, bindings, planes.clone())?;
         let source = Source::Steps { begin };
-        Self::from(device, lattice, (planes, program, source))
+        Self::of_parts(device, lattice, (planes, program, source))
     }
 
     /// Statistics of the fields of `observer`: call [`Observer::record`] before each [`Statistics::record`].
@@ -206,10 +206,10 @@ impl Statistics {
             begin: dispatch("begin_statistics")?,
             add: dispatch("add_observed")?,
         };
-        Self::from(device, lattice, (planes, program, source))
+        Self::of_parts(device, lattice, (planes, program, source))
     }
 
-    fn from(
+    fn of_parts(
         device: &wgpu::Device,
         lattice: &Lattice,
         (planes, program, source): (Vec<(String, wgpu::Buffer)>, Program, Source),

@@ -206,7 +206,7 @@ fn samples_that_steps_add_are_those_of_an_observer() {
             let mut summed = Statistics::new(&rig.device, &mut lattice).unwrap();
             assert!(Statistics::new(&rig.device, &mut lattice).is_err(), "twice");
             // Over the end of a block in one of them.
-            let samples = if lanes == 1 { 300 } else { 20 };
+            let samples = if lanes == 1 { 300 } else { 7 };
             for sample in 1..=samples {
                 let mut encoder = rig.device.create_command_encoder(&Default::default());
                 {
@@ -223,20 +223,39 @@ fn samples_that_steps_add_are_those_of_an_observer() {
                 let early = summed.state(&rig.device, &rig.queue, &lattice);
                 assert!(rig.wait(early).is_err(), "before the step");
                 rig.run(&mut lattice, 1 + 2 * (sample as usize % 2));
-            }
-            for of in ALL {
-                let [one, other] = [&mut observed, &mut summed].map(|statistics| {
-                    let read = statistics.read(&rig.device, &rig.queue, &lattice, of, None);
-                    rig.wait(read).unwrap()
+                // The last is the error of f32 after many samples.
+                let limit = match sample {
+                    7 => 1e-6,
+                    300 => 1e-5,
+                    _ => continue,
+                };
+                let found = ALL.map(|of| {
+                    [&mut observed, &mut summed].map(|statistics| {
+                        let read = statistics.read(&rig.device, &rig.queue, &lattice, of, None);
+                        rig.wait(read).unwrap()
+                    })
                 });
-                let most = one
-                    .iter()
-                    .fold(0.0_f32, |most, value| most.max(value.abs()));
-                assert!(most > 0.0, "{of:?}");
-                for (one, other) in one.iter().zip(&other) {
-                    // The rounding of sums of so many samples.
-                    let error = (one - other).abs() / most;
-                    assert!(error <= 1e-5, "{storage:?} {lanes} {of:?}: {one} {other}");
+                let most = found.each_ref().map(|[one, _]| {
+                    let sizes = one.iter().map(|value| value.abs());
+                    sizes.fold(0.0, f32::max)
+                });
+                // The two sum the 27 populations of a cell, whose scale is the speed of the wall, in different orders.
+                let rounding = 27.0_f32.sqrt() * f32::EPSILON * 0.05;
+                for (k, [one, other]) in found.iter().enumerate() {
+                    let fluctuation = match k {
+                        0..4 => 0.5,
+                        4 => most[4].sqrt(),
+                        _ => most[5..8].iter().fold(0.0, |a: f32, b| a.max(*b)).sqrt(),
+                    };
+                    let bound = limit * most[k] + 2.0 * rounding * fluctuation;
+                    assert!(most[k] > 0.0, "{:?}", ALL[k]);
+                    for (one, other) in one.iter().zip(other) {
+                        assert!(
+                            (one - other).abs() <= bound,
+                            "{storage:?} {lanes} {wide} {sample} {:?}: {one} {other}",
+                            ALL[k]
+                        );
+                    }
                 }
             }
         }

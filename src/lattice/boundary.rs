@@ -1,14 +1,14 @@
 //! The passes that complete the populations of cells at walls and open faces.
 
 use super::{
-    CellPass, Face, Grid, Lattice, Link, OpenFace, Setup,
+    CellPass, Face, Grid, LINKS_OF_ROW, Lattice, Link, OpenFace, Setup,
     buffers::{storage, wall_velocities},
     cell_kernels::CellDispatch,
     check::finite,
     fluid::{Dispatch, face_name},
     stages::LAST_STAGE,
 };
-use crate::{Error, Result};
+use crate::{Error, Result, gpu::Processor};
 use std::ops::Range;
 
 impl Lattice {
@@ -18,18 +18,31 @@ impl Lattice {
         let limit = device.limits().max_storage_buffer_binding_size as usize;
         let geometry = &self.geometry;
         let program = self.cell_program("links");
-        for links in geometry.links.chunks(limit / size_of::<Link>()) {
-            let list = storage(device, "links", bytemuck::cast_slice(links));
-            for half in self.halves() {
-                let dispatch = CellDispatch {
-                    program: &program,
-                    entry: "reflect",
-                    pass: cell_pass(odd, half, &(0..links.len())),
-                    buffers: &[("links", &list)],
-                    constants: &[],
-                    invocations: links.len() as u32,
-                };
-                passes.push(self.cell_dispatch(device, &dispatch)?);
+        for (links, of_row, of_invocation) in [
+            (
+                &geometry.link_rows,
+                LINKS_OF_ROW,
+                self.links_of_invocation(),
+            ),
+            (&geometry.links, 1, 1),
+        ] {
+            for links in links.chunks(limit / size_of::<Link>()) {
+                let list = storage(device, "links", bytemuck::cast_slice(links));
+                let invocations = links.len() * (of_row / of_invocation);
+                for half in self.halves() {
+                    let dispatch = CellDispatch {
+                        program: &program,
+                        entry: "reflect",
+                        pass: cell_pass(odd, half, &(0..invocations)),
+                        buffers: &[("links", &list)],
+                        constants: &[
+                            ("LINKS_OF_ROW", of_row as f64),
+                            ("LINKS_OF_INVOCATION", of_invocation as f64),
+                        ],
+                        invocations: invocations as u32,
+                    };
+                    passes.push(self.cell_dispatch(device, &dispatch)?);
+                }
             }
         }
         passes.extend(self.wall_passes(device, odd)?);
@@ -60,6 +73,15 @@ impl Lattice {
         }
         passes.extend(self.store_outflow_pass(device, odd)?);
         Ok(passes)
+    }
+
+    /// Links of a row that an invocation processes. Software adapters execute invocations one after another: each processes a
+    /// row. On GPUs adjacent invocations access adjacent cells.
+    fn links_of_invocation(&self) -> usize {
+        match self.setup.processor {
+            Some(Processor::Cpu) => LINKS_OF_ROW,
+            Some(Processor::Gpu) | None => 1,
+        }
     }
 
     /// The pass that stores the data of outflow faces for the next step, if there are any; the present state must be complete.

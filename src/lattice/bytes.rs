@@ -31,6 +31,7 @@ impl Lattice {
             (
                 "links at walls",
                 list(size_of_val(&geometry.links[..]))
+                    + list(size_of_val(&geometry.link_rows[..]))
                     + list(size_of_val(&geometry.moving[..]))
                     + size(&buffers.wall_velocity),
             ),

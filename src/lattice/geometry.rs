@@ -89,7 +89,7 @@ pub struct FaceCell {
     pub turn: u32,
 }
 
-/// A reflected population, as `links.wgsl` reads it.
+/// A reflected population, as `link.wgsl` reads it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
 pub struct Link {
@@ -99,7 +99,12 @@ pub struct Link {
     pub to: u32,
     /// Directions of both words in an even step, 5 bits each.
     pub directions: u32,
+    /// Scalars from this link to the next of its row, read and written.
+    pub step: u32,
 }
+
+/// Links of a row: with the same directions, at equal distances.
+pub const LINKS_OF_ROW: usize = 8;
 
 /// The surroundings of all cells.
 #[derive(Debug, Default)]
@@ -107,7 +112,9 @@ pub struct Geometry {
     /// A byte for each lane of an element, as `cell_flags_stored.wgsl` explains them; empty where
     /// all cells are fluid without neighbours of another kind.
     pub flags: Vec<u32>,
-    /// Populations that walls at rest and free-slip faces return.
+    /// Populations that walls at rest and free-slip faces return: the first of each row.
+    pub link_rows: Vec<Link>,
+    /// Those in no row.
     pub links: Vec<Link>,
     /// Cells at walls whose friction a law of the wall gives, and their links.
     pub walls: Walls,
@@ -182,9 +189,7 @@ impl Geometry {
             let word = &mut geometry.flags[element as usize];
             *word = *word & !(0xff << (8 * lane)) | u32::from(bits) << (8 * lane);
         }
-        // Sorted by memory address.
-        let links = &mut geometry.links;
-        links.sort_unstable_by_key(|link| (link.directions, link.to));
+        geometry.join_links(grid);
         geometry.walls.own_layers(grid);
         for cells in [&mut geometry.pressure, &mut geometry.outflow] {
             set_turns(cells);
@@ -275,6 +280,37 @@ impl Geometry {
             self.walls.push(survey, cell, face);
         }
         bits
+    }
+
+    /// Number of populations that walls at rest and free-slip faces return.
+    pub fn link_count(&self) -> usize {
+        LINKS_OF_ROW * self.link_rows.len() + self.links.len()
+    }
+
+    /// Sorts the links by direction and memory address, and joins them to rows.
+    fn join_links(&mut self, grid: &Grid) {
+        let mut links = std::mem::take(&mut self.links);
+        links.sort_unstable_by_key(|link| (link.directions, link.to % grid.lanes, link.to));
+        let step = |a: &Link, b: &Link| {
+            let [from, to] = [b.from.wrapping_sub(a.from), b.to.wrapping_sub(a.to)];
+            (a.directions == b.directions && from == to).then_some(to)
+        };
+        let mut rest = &links[..];
+        while let Some(&first) = rest.first() {
+            let row = rest.get(..LINKS_OF_ROW).unwrap_or_default();
+            let mut steps = row.windows(2).map(|two| step(&two[0], &two[1]));
+            let next = steps.next().flatten();
+            match next.filter(|_| steps.all(|other| other == next)) {
+                Some(step) => {
+                    self.link_rows.push(Link { step, ..first });
+                    rest = &rest[LINKS_OF_ROW..];
+                }
+                None => {
+                    self.links.push(first);
+                    rest = &rest[1..];
+                }
+            }
+        }
     }
 
     fn sort_bricks(&mut self, grid: &Grid) {
@@ -433,6 +469,7 @@ impl Survey<'_> {
             from,
             to,
             directions: direction_from | direction_to << 5,
+            step: 0,
         }
     }
 

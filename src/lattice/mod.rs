@@ -68,7 +68,7 @@ pub use cell_kernels::{CellPass, OpenFace};
 pub use check::MAX_ROUGHNESS;
 pub use exchange::Populations;
 pub use fluid::{Lattice, face_name, in_plane};
-pub use geometry::{C, FaceCell, Geometry, Link, MovingCell};
+pub use geometry::{C, FaceCell, Geometry, LINKS_OF_ROW, Link, MovingCell};
 pub use grid::Grid;
 pub use inside::Inside;
 pub use memory::{Memory, bytes_per_population, memory};

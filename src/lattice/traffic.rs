@@ -44,7 +44,8 @@ pub fn bytes_per_step(setup: &Setup, grid: &Grid, geometry: &Geometry) -> u64 {
     let flags = 4 * brick * count(geometry.mixed.len() + geometry.surface.len());
     let lists = 4 * count(geometry.mixed.len() + geometry.plain.len() + geometry.surface.len());
     let surface = 4 * brick * u64::from(grid.lanes) * count(geometry.surface.len());
-    let links = count(geometry.links.len()) * (count(size_of::<Link>()) + 2 * word);
+    let links = count((geometry.link_rows.len() + geometry.links.len()) * size_of::<Link>())
+        + count(geometry.link_count()) * 2 * word;
     // The velocity that the law reads, what the wall received, and the eddy viscosity of four cells.
     let wall = 9 * (count(size_of::<Link>()) + 2 * word)
         + count(size_of::<WallCell>() + size_of::<WallStress>())
@@ -113,9 +114,9 @@ mod tests {
         let mut setup = Setup::periodic([8; 3], 0.01);
         setup.faces[2] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
         setup.brick = [8, 8, 1];
-        // 2 × 64 cells with 9 directions into a wall, 12 bytes of list and 8 of populations each;
+        // 2 × 64 cells with 9 directions into a wall, 8 bytes of populations each, and 16 bytes of list for each row of 8;
         // 2 of 8 bricks hold them, the layer behind the walls has none that runs.
-        let links = 2 * 64 * 9 * 20;
+        let links = 2 * 64 * 9 * (8 + 16 / 8);
         assert_eq!(step(&setup), 512 * 216 + links + 2 * 64 * 4 + 8 * 4);
     }
 }

@@ -180,7 +180,11 @@ impl Output<'_> {
     fn single_cells(&mut self, stored: &str, mut setup: lattice::Setup) -> Outcome {
         setup.faces[0] = [Face::Wall([0.0; 3]), Face::Wall([0.0; 3])];
         let grid = Grid::new(&setup)?;
-        let constants = lattice::constants(&setup, &grid, false);
+        let mut constants = lattice::constants(&setup, &grid, false);
+        constants.extend([
+            ("LINKS_OF_ROW", lattice::LINKS_OF_ROW as f64),
+            ("LINKS_OF_INVOCATION", 1.0),
+        ]);
         for (file, entry) in [
             ("links", "reflect"),
             ("moving_wall", "move_wall"),

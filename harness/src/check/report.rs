@@ -210,7 +210,7 @@ impl Cells {
             plain_bricks: geometry.plain.len() as u64,
             mixed_bricks: (geometry.mixed.len() + geometry.surface.len()) as u64,
             idle_bricks: u64::from(geometry.solid_bricks),
-            links: geometry.links.len() as u64,
+            links: geometry.link_count() as u64,
             moving: geometry.moving.len() as u64,
             open: (geometry.pressure.len() + geometry.outflow.len()) as u64,
             wall_faces: geometry.walls.area,

@@ -68,6 +68,8 @@ pub fn specialise(linked: &Linked, entry: &str, setup: &Setup, odd: bool) {
         ("BRICKS", 1.0),
         ("GUARD_COUNTS", 1.0),
         ("NON_EQUILIBRIUM", 1.0),
+        ("LINKS_OF_ROW", 8.0),
+        ("LINKS_OF_INVOCATION", 8.0),
         ("AXIS", 2.0),
     ]
     .into_iter()

@@ -206,7 +206,7 @@ fn samples_that_steps_add_are_those_of_an_observer() {
             let mut summed = Statistics::new(&rig.device, &mut lattice).unwrap();
             assert!(Statistics::new(&rig.device, &mut lattice).is_err(), "twice");
             // Over the end of a block in one of them.
-            let samples = if lanes == 1 { 300 } else { 7 };
+            let samples = if lanes == 1 { 300 } else { 20 };
             for sample in 1..=samples {
                 let mut encoder = rig.device.create_command_encoder(&Default::default());
                 {
@@ -223,12 +223,9 @@ fn samples_that_steps_add_are_those_of_an_observer() {
                 let early = summed.state(&rig.device, &rig.queue, &lattice);
                 assert!(rig.wait(early).is_err(), "before the step");
                 rig.run(&mut lattice, 1 + 2 * (sample as usize % 2));
-                // The last is the error of f32 after many samples.
-                let limit = match sample {
-                    7 => 1e-6,
-                    300 => 1e-5,
-                    _ => continue,
-                };
+                if sample != 7 && sample != samples {
+                    continue;
+                }
                 let found = ALL.map(|of| {
                     [&mut observed, &mut summed].map(|statistics| {
                         let read = statistics.read(&rig.device, &rig.queue, &lattice, of, None);
@@ -239,7 +236,8 @@ fn samples_that_steps_add_are_those_of_an_observer() {
                     let sizes = one.iter().map(|value| value.abs());
                     sizes.fold(0.0, f32::max)
                 });
-                // The two sum the 27 populations of a cell, whose scale is the speed of the wall, in different orders.
+                // After few samples: the two sum the 27 populations of a cell, whose scale is the speed of the wall, in different
+                // orders.
                 let rounding = 27.0_f32.sqrt() * f32::EPSILON * 0.05;
                 for (k, [one, other]) in found.iter().enumerate() {
                     let fluctuation = match k {
@@ -247,7 +245,11 @@ fn samples_that_steps_add_are_those_of_an_observer() {
                         4 => most[4].sqrt(),
                         _ => most[5..8].iter().fold(0.0, |a: f32, b| a.max(*b)).sqrt(),
                     };
-                    let bound = limit * most[k] + 2.0 * rounding * fluctuation;
+                    let bound = match sample {
+                        7 => 1e-6 * most[k] + 2.0 * rounding * fluctuation,
+                        // The rounding of sums of so many samples.
+                        _ => 1e-5 * most[k],
+                    };
                     assert!(most[k] > 0.0, "{:?}", ALL[k]);
                     for (one, other) in one.iter().zip(other) {
                         assert!(

@@ -1,66 +1,14 @@
 // Asmuth et al. 2021, Phys. Fluids 33:105111: the law of the wall of wall_model.wgsl on grid-aligned faces of blocks. Computes
 // the stress in each full cell under such a face, and the eddy viscosity of the fluid in front of it, from the velocity of the
 // previous step; block_friction_stored.wgsl applies the stress.
-// needs psm_bricks, psm_places, psm_planes, psm_storage_written, cell_velocities, law_of_the_wall, mixing_length, $neighbour_flags
-
-// Bits of non-negative floats, which have the order of the floats: a cell in front of two faces gets the larger value.
-@group(0) @binding(42) var<storage, read_write> near_wall_viscosity: array<atomic<u32>>;
-// Code of each cell of the bricks that blocks reach, as the bits of a float, for block_friction_stored.wgsl: 1 to 6 under a face
-// x-, x+, y-, y+, z-, z+ where the law acts, see CUT for a cell that such a face cuts, 0 elsewhere.
-@group(0) @binding(39) var<storage, read_write> face_codes: array<atomic<u32>>;
-
-// Cells of blocks that may lie under such a face, by their number in these bricks (number_of).
-struct OuterCells {
-    count: atomic<u32>,
-    cells: array<u32>,
-}
-
-@group(0) @binding(47) var<storage, read_write> outer_cells: OuterCells;
+// needs surface_cells, sloping_faces, near_wall_bits, cell_velocities, law_of_the_wall, mixing_length
 
 // Number of cells in front of a face whose eddy viscosity follows from the law; the law reads the velocity of the last one.
 const DEPTH = 5u;
 // The code of a cell that a face cuts is CUT less the face: of two faces the first one counts.
 const CUT = 12u;
-// Solid fraction from which a cell is full.
-const FULL = 0.999;
 // Largest difference of the solid fractions of adjacent cells in front of a grid-aligned face.
 const SLOPE = 0.1;
-const NO_FACE = 6u;
-// Bits of the flags of a cell: the neighbour through a face is not fluid; the cell is not fluid.
-const FACES = 63u;
-const SOLID = 128u;
-
-// The solid in a cell, with its place in the planes.
-struct Solid {
-    slot: u32,
-    place: u32,
-    fraction: f32,
-    interior: bool,
-    several: bool,
-}
-
-fn solid_of(slot: u32, place: u32) -> Solid {
-    let sum = decode_sum(read_psm(PLANE_SUM, slot, place));
-    let fraction = select(0.0, read_psm(PLANE_FRACTION, slot, place), sum.fraction > 0.0);
-    return Solid(slot, place, fraction, sum.interior, sum.several);
-}
-
-fn solid_at(cell: vec3<u32>) -> Solid {
-    let at = psm_place(cell);
-    if (at.x == 0u) {
-        return Solid(0u, 0u, 0.0, false, false);
-    }
-    return solid_of(at.x - 1u, at.y);
-}
-
-// The cell at distance `n` through a face, also across a periodic face.
-fn through(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
-    let size = vec3(CELLS_X, CELLS_Y, CELLS_Z);
-    let axis = face / 2u;
-    var other = cell;
-    other[axis] = (cell[axis] + select(size[axis] - n, n, face % 2u == 1u)) % size[axis];
-    return other;
-}
 
 // Solid fraction of the neighbour through a face; 0 if the neighbour is not fluid.
 fn fraction_through(cell: vec3<u32>, face: u32) -> f32 {
@@ -73,8 +21,7 @@ fn fraction_through(cell: vec3<u32>, face: u32) -> f32 {
 // The face of a full cell where the law acts, or NO_FACE. It is the only open face of the cell, is grid-aligned up to its
 // neighbours, and has five cells of fluid in front of it.
 fn face_of(cell: vec3<u32>, here: Solid) -> u32 {
-    let beyond = any(cell >= vec3(CELLS_X, CELLS_Y, CELLS_Z));
-    if (beyond || here.fraction < FULL || here.interior || here.several || (flags_of(cell) & (FACES | SOLID)) != 0u) {
+    if (here.fraction < FULL || here.interior || here.several || !may_have_face(cell)) {
         return NO_FACE;
     }
     var found = NO_FACE;
@@ -136,38 +83,14 @@ fn friction_under(cell: vec3<u32>, here: Solid, face: u32) -> BlockFriction {
     return BlockFriction(stress / max(speed, 1e-30) * u, friction, model_share(friction), fraction);
 }
 
-// Number of a cell of the bricks that blocks reach, slot by slot.
-fn number_of(slot: u32, place: u32) -> u32 {
-    return slot * BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT + place;
-}
-
-struct OuterCell {
-    cell: vec3<u32>,
-    number: u32,
-    solid: Solid,
-}
-
-fn outer_cell(n: u32) -> OuterCell {
-    let number = outer_cells.cells[n];
-    let of_brick = BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT;
-    let slot = number / of_brick;
-    let place = number % of_brick;
-    let cell = cell_at(PsmPlace(slot, place / LANES_OF_ELEMENT, place % LANES_OF_ELEMENT));
-    return OuterCell(cell, number, solid_of(slot, place));
-}
-
-// The face that find_faces has found.
-fn face_above(here: OuterCell) -> u32 {
-    return min(u32(bitcast<f32>(atomicLoad(&face_codes[here.number]))) - 1u, NO_FACE);
-}
-
 // Runs after blocks have moved, before list_outer_cells and find_faces.
 @compute @workgroup_size(1)
 fn forget_outer_cells() {
     atomicStore(&outer_cells.count, 0u);
 }
 
-// Lists the outer cells, so that find_faces visits only these: software adapters execute all branches of each invocation.
+// Lists the outer cells of one block each, so that find_faces visits only these: software adapters execute all branches of each
+// invocation.
 @compute @workgroup_size(64)
 fn list_outer_cells(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -182,8 +105,10 @@ fn list_outer_cells(
     let number = number_of(at.slot, place);
     atomicStore(&face_codes[number], 0u);
     let sum = read_psm(PLANE_SUM, at.slot, place);
-    if (sum > 0.9 && sum < INTERIOR_SUM) {
-        outer_cells.cells[atomicAdd(&outer_cells.count, 1u)] = number;
+    if (sum > 0.0 && sum < INTERIOR_SUM && !decode_sum(sum).several && may_have_face(cell_at(at))) {
+        let n = atomicAdd(&outer_cells.count, 1u);
+        outer_cells.cells[n].number = number;
+        outer_cells.cells[n].slope = NO_SLOPE;
     }
 }
 
@@ -208,6 +133,27 @@ fn find_faces(
     }
 }
 
+// Finds the sloping faces, at cells without a grid-aligned one.
+@compute @workgroup_size(64)
+fn find_slopes(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let count = atomicLoad(&outer_cells.count);
+    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
+        let here = outer_cell(n);
+        if (atomicLoad(&face_codes[here.number]) == 0u) {
+            let face = sloping_face(here.number, here.cell, here.solid);
+            outer_cells.cells[n] = face;
+            if (face.slope != NO_SLOPE) {
+                let code = select(SLIDES, FULL_AT_SLOPE, here.solid.fraction >= FULL);
+                atomicStore(&face_codes[here.number], bitcast<u32>(f32(code)));
+            }
+        }
+    }
+}
+
 // Applies the law at these faces, for the next step.
 @compute @workgroup_size(64)
 fn block_friction(
@@ -219,7 +165,9 @@ fn block_friction(
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
         let here = outer_cell(n);
         let face = face_above(here);
-        if (face != NO_FACE) {
+        if (face == NO_FACE) {
+            apply_at_slope(n, here);
+        } else {
             apply_law(here, face);
         }
     }
@@ -240,6 +188,9 @@ fn clear_viscosity(
         for (var k = 0u; k < DEPTH && face != NO_FACE; k++) {
             before = through(before, face, 1u);
             atomicStore(&near_wall_viscosity[scalar_of(before)], 0u);
+        }
+        if (outer_cells.cells[n].slope != NO_SLOPE) {
+            set_viscosity_above(outer_cells.cells[n], here.cell, 0.0);
         }
     }
 }
@@ -268,22 +219,25 @@ fn write_friction(slot: u32, place: u32, law: BlockFriction) {
     }
 }
 
-// A face where the law acts.
+// A face where the law acts, or the part of a sloping face in a column of cells.
 struct BlockFace {
     // Index of the full cell under the face, in the padded grid.
     cell: u32,
-    // Face of that cell: x-, x+, y-, y+, z-, z+.
+    // Face of that cell, the nearest to a sloping one: x-, x+, y-, y+, z-, z+.
     face: u32,
     friction: f32,
     share: f32,
     stress: vec3<f32>,
-    // Distance of the face beyond that cell, cells.
+    // Distance of the face beyond that cell along the axis of `face`, cells.
     fraction: f32,
+    normal: vec3<f32>,
 }
 
 // Number of faces of full block cells in contact with fluid, and number of these where the law acts.
 @group(0) @binding(43) var<storage, read_write> face_counts: array<atomic<u32>, 2>;
 @group(0) @binding(44) var<storage, read_write> found_faces: array<BlockFace>;
+// Whether the law acts on sloping faces.
+override SLOPING: bool;
 
 // For output: the faces where the law acts, in no particular order.
 @compute @workgroup_size(64)
@@ -304,21 +258,47 @@ fn list_block_faces(
     if (here.fraction < FULL || here.interior) {
         return;
     }
-    for (var face = 0u; face < 6u; face++) {
-        let closed = (flags_of(cell) & (1u << face)) != 0u;
-        let other = solid_at(through(cell, face, 1u));
-        if (!closed && other.fraction < FULL && !other.several) {
+    let face = face_of(cell, here);
+    if (face == NO_FACE && SLOPING) {
+        let sloping = sloping_face(0u, cell, here);
+        if (sloping.slope != NO_SLOPE) {
+            if ((sloping.slope & SLOPE_TOP) != 0u) {
+                atomicAdd(&face_counts[0], 1u);
+                list_sloping_face(cell, here, sloping);
+            }
+            return;
+        }
+    }
+    for (var side = 0u; side < 6u; side++) {
+        let other = solid_at(through(cell, side, 1u));
+        if ((flags_of(cell) & (1u << side)) == 0u && other.fraction < FULL && !other.several) {
             atomicAdd(&face_counts[0], 1u);
         }
     }
-    let face = face_of(cell, here);
     if (face == NO_FACE) {
         return;
     }
     let n = atomicAdd(&face_counts[1], 1u);
     if (n < arrayLength(&found_faces)) {
         let law = friction_under(cell, here, face);
-        let index = cell.x + NX * (cell.y + NY * LANES_Y * cell.z);
-        found_faces[n] = BlockFace(index, face, law.friction, law.share, law.stress, law.fraction);
+        var normal: vec3<f32>;
+        normal[face / 2u] = select(-1.0, 1.0, face % 2u == 1u);
+        found_faces[n] = BlockFace(padded_index(cell), face, law.friction, law.share, law.stress, law.fraction, normal);
     }
+}
+
+fn list_sloping_face(cell: vec3<u32>, here: Solid, found: SurfaceCell) {
+    let n = atomicAdd(&face_counts[1], 1u);
+    if (n < arrayLength(&found_faces)) {
+        let law = law_at_slope(found, velocity_of_block(here));
+        let stress = law.friction * law.friction / max(length(law.u), 1e-30) * law.u;
+        let face = law.slope & 7u;
+        let beyond = f32(law.slope >> SLOPE_CELLS) - 0.5 - law.distance / abs(law.normal[face / 2u]);
+        found_faces[n] =
+            BlockFace(padded_index(cell), face, law.friction, model_share(law.friction), stress, beyond, law.normal);
+    }
+}
+
+fn padded_index(cell: vec3<u32>) -> u32 {
+    return cell.x + NX * (cell.y + NY * LANES_Y * cell.z);
 }

@@ -8,3 +8,7 @@ fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<functio
 fn with_law(weight: Real, share_of_law: Real) -> Real {
     return weight;
 }
+
+fn sliding_velocity(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>) -> Vector {
+    return v;
+}

@@ -1,21 +1,25 @@
-// Han, Ooka & Kikumoto 2021, Fluid Dyn. Res. 53:045506, for a grid-aligned face of a block. The tangential momentum P that
-// arrives in the full cell under the face returns less the stress of the law of the wall: sum over c_n = 1 of f* c_t = P -
-// stress. The other directions leave with the velocity of the block. A cell that the face cuts exchanges no tangential momentum.
+// Han, Ooka & Kikumoto 2021, Fluid Dyn. Res. 53:045506, for faces of blocks. Of the tangential momentum P that arrives in a full
+// cell under a grid-aligned face, P less the stress of the law of the wall returns: sum over c_n = 1 of f* c_t = P - stress. The
+// other directions leave with the velocity of the block. A cell that a face cuts exchanges no tangential momentum.
 // needs velocity, moments, psm_planes, psm_storage, workgroup, $reals
 
 // Codes of the cells of each brick that blocks reach: 1 to 6 under a face x-, x+, y-, y+, z-, z+; 7 to 12 cut by a face z+, z-,
-// y+, y-, x+, x-; 0 elsewhere.
+// y+, y-, x+, x-; 13 cut by a sloping face; 14 full, at one; 0 elsewhere.
 @group(0) @binding(39) var<storage, read> face_codes: array<Reals>;
 
 // Modifies the moments s of the change by the solid, given the moments h before it; returns the share of the law in a full cell.
 fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
     let code = unpack_reals(face_codes[slot * WORKGROUP + local]);
-    let acts = code > Real(0.0);
-    if (!mask_any(acts)) {
+    let acts = (code > Real(0.0)) & (code < Real(12.5));
+    let slopes = code > Real(13.5);
+    if (!mask_any(acts | slopes)) {
         return Real(0.0);
     }
     // In other cells the planes still hold the values of the previous step.
-    let share = select(Real(0.0), unpack_reals(read_psm(PLANE_SHARE, slot, local)), acts);
+    let share = select(Real(0.0), unpack_reals(read_psm(PLANE_SHARE, slot, local)), acts | slopes);
+    if (!mask_any(acts)) {
+        return share;
+    }
     let sixths = array<Real, 3>(v.x * (1.0 / 6.0), v.y * (1.0 / 6.0), v.z * (1.0 / 6.0));
     let stride = array<u32, 3>(1u, 3u, 9u);
     for (var along = 0u; along < 3u; along++) { // unroll
@@ -37,7 +41,31 @@ fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<functio
             (*s)[t] += select(part, share, (code == Real(12.0 - 2.0 * f32(normal))) | (code == Real(11.0 - 2.0 * f32(normal)))) * (change - (*s)[t]);
         }
     }
-    return select(Real(0.0), share, acts & (code < Real(6.5)));
+    return select(Real(0.0), share, (acts & (code < Real(6.5))) | slopes);
+}
+
+// The velocity of the solid for the change of a cell. A solid whose face slopes has the tangential velocity of the fluid, so that
+// the momentum changes along the normal alone.
+fn sliding_velocity(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>) -> Vector {
+    let code = unpack_reals(face_codes[slot * WORKGROUP + local]);
+    let slides = (code > Real(12.5)) & (code < Real(13.5));
+    if (!mask_any(slides)) {
+        return v;
+    }
+    let share = select(Real(0.0), unpack_reals(read_psm(PLANE_SHARE, slot, local)), slides);
+    let n = Vector(
+        unpack_reals(read_psm(PLANE_STRESS, slot, local)),
+        unpack_reals(read_psm(PLANE_STRESS + 1u, slot, local)),
+        unpack_reals(read_psm(PLANE_STRESS + 2u, slot, local)),
+    );
+    let u = Vector((*h)[1u] / rho - v.x, (*h)[3u] / rho - v.y, (*h)[9u] / rho - v.z);
+    let away = n.x * u.x + n.y * u.y + n.z * u.z;
+    // In other cells the planes hold other values, and may hold NaN.
+    return Vector(
+        v.x + select(Real(0.0), share * (u.x - away * n.x), slides),
+        v.y + select(Real(0.0), share * (u.y - away * n.y), slides),
+        v.z + select(Real(0.0), share * (u.z - away * n.z), slides),
+    );
 }
 
 // The weight of the solid in a cell, at least the share of the law.

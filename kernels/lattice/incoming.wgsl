@@ -59,3 +59,13 @@ fn outgoing(at: Neighbourhood, q: u32) -> Word {
     }
     return Word(q - 1u + cell_pass.odd, scalar_at(at, vec3(0)));
 }
+
+fn read_outgoing(at: Neighbourhood, q: u32) -> f32 {
+    let word = outgoing(at, q);
+    return read_scalar(word.direction, word.scalar);
+}
+
+fn write_outgoing(at: Neighbourhood, q: u32, value: f32) {
+    let word = outgoing(at, q);
+    write_scalar(word.direction, word.scalar, value);
+}

@@ -99,7 +99,7 @@ fn collide_with_solid(
     let higher_without_law = select(others + joint * (JOINT_DAMPING - others), Real(1.0), psm.interior);
     let v = psm.velocity;
     let excess = (*h)[0u];
-    var s = equilibrium(rho, v);
+    var s = equilibrium(rho, sliding_velocity(slot, local, rho, v, h));
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }

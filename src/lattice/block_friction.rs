@@ -1,4 +1,4 @@
-//! Wall model on grid-aligned faces of blocks.
+//! Wall model on faces of blocks.
 
 use super::{Lattice, boundary::cell_pass, cell_kernels::CellDispatch, fluid::Dispatch};
 use crate::{
@@ -7,14 +7,14 @@ use crate::{
 };
 use bytemuck::{Pod, Zeroable};
 
-/// A face of a block above a full cell, with the result of the law of the wall, in the layout of
+/// A face of a block above a full cell, or the part of a sloping face in a column of cells, with the result of the law of the wall, in the layout of
 /// `kernels/lattice/block_friction.wgsl`; lattice units.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct BlockFace {
     /// Index of that cell in the padded grid.
     pub cell: u32,
-    /// The face of the cell: x−, x+, y−, y+, z−, z+.
+    /// The face of the cell, the nearest to a sloping one: x−, x+, y−, y+, z−, z+.
     pub face: u32,
     /// Friction velocity.
     pub friction: f32,
@@ -22,8 +22,12 @@ pub struct BlockFace {
     pub share: f32,
     /// Stress on the face over the density, along x, y, z.
     pub stress: [f32; 3],
-    /// Distance of the face beyond the cell: the solid fraction of the next cell.
+    /// Distance of the face beyond the cell along that axis, cells.
     pub fraction: f32,
+    /// Outward normal.
+    pub normal: [f32; 3],
+    /// Not used.
+    pub pad: f32,
 }
 
 /// The faces of blocks for the wall model.
@@ -46,10 +50,32 @@ pub(super) struct BlockPasses {
     pub faces: Vec<Dispatch>,
     /// Friction of these faces, in even and odd steps.
     pub friction: [Vec<Dispatch>; 2],
+    /// Friction of sloping faces, after the collision in even and odd steps.
+    pub sloping: [Option<Dispatch>; 2],
     /// Removal of the eddy viscosity at the end of a step.
     pub end: Option<Dispatch>,
     /// List of the cells that may be under such a face.
     pub outer_cells: Option<wgpu::Buffer>,
+}
+
+/// Bytes of a cell in the list of those at the surfaces of blocks.
+const SURFACE_CELL: u64 = 48;
+
+/// Room for a list of so many cells.
+fn outer_cells(device: &wgpu::Device, cells: u32) -> Result<wgpu::Buffer> {
+    let (wants, has) = (
+        16 + SURFACE_CELL * u64::from(cells),
+        largest_binding(&device.limits()),
+    );
+    if wants > has {
+        return Err(Error::Limit {
+            name: "bytes of one storage binding (cells at blocks)".into(),
+            wants,
+            has,
+            remedy: "use a larger cell, no wall model, or another adapter".into(),
+        });
+    }
+    Ok(zeroed(device, "outer cells of blocks", wants))
 }
 
 impl Lattice {
@@ -66,7 +92,7 @@ impl Lattice {
     fn pass_of_model(
         &self,
         device: &wgpu::Device,
-        entry: &'static str,
+        (file, entry): (&str, &'static str),
         odd: u32,
         (list, invocations): (&wgpu::Buffer, u32),
         more: &[(&str, &wgpu::Buffer)],
@@ -75,7 +101,7 @@ impl Lattice {
         buffers.extend(self.psm_planes());
         buffers.extend(more);
         let dispatch = CellDispatch {
-            program: &self.cell_program("block_friction"),
+            program: &self.cell_program(file),
             entry,
             pass: cell_pass(odd, 0, &(0..0)),
             buffers: &buffers,
@@ -93,10 +119,11 @@ impl Lattice {
         };
         let of_model = self.bricks_of_model().zip(self.streams.face_codes());
         if let Some(((list, cells), codes)) = of_model {
-            let outer = zeroed(device, "outer cells of blocks", 4 + 4 * u64::from(cells));
+            let outer = outer_cells(device, cells)?;
             let buffers = [("face_codes", codes), ("outer_cells", &outer)];
             let pass = |entry, odd, invocations| {
-                self.pass_of_model(device, entry, odd, (list, invocations), &buffers)
+                let kernel = ("block_friction", entry);
+                self.pass_of_model(device, kernel, odd, (list, invocations), &buffers)
             };
             let listed = cells.div_ceil(CELLS_OF_BRICKS);
             passes.faces.extend([
@@ -106,6 +133,14 @@ impl Lattice {
             ]);
             for (odd, friction) in (0..).zip(&mut passes.friction) {
                 friction.push(pass("block_friction", odd, listed)?);
+            }
+            if self.setup.has_sloping_friction() {
+                passes.faces.push(pass("find_slopes", 0, listed)?);
+                let kernel = ("sloping_friction", "sloping_friction");
+                for (next, friction) in [1, 0].into_iter().zip(&mut passes.sloping) {
+                    let cells = (list, listed);
+                    *friction = Some(self.pass_of_model(device, kernel, next, cells, &buffers)?);
+                }
             }
             passes.end = Some(pass("clear_viscosity", 0, listed)?);
             passes.outer_cells = Some(outer);
@@ -132,7 +167,8 @@ impl Lattice {
         let list = zeroed(device, "faces of blocks", each * most);
         let more = [("face_counts", &counts), ("found_faces", &list)];
         let odd = self.parity() as u32;
-        let dispatch = self.pass_of_model(device, "list_block_faces", odd, bricks, &more)?;
+        let kernel = ("block_friction", "list_block_faces");
+        let dispatch = self.pass_of_model(device, kernel, odd, bricks, &more)?;
         let mut encoder = device.create_command_encoder(&Default::default());
         dispatch.record(&mut encoder.begin_compute_pass(&Default::default()));
         queue.submit([encoder.finish()]);

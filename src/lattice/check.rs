@@ -1,6 +1,8 @@
 //! Checks of a setup.
 
-use super::{Face, Force, Setup, SolidOperator, SolidWeight, SurfaceCell, face_name, in_plane};
+use super::{
+    Face, Force, Setup, SolidOperator, SolidWeight, Storage, SurfaceCell, face_name, in_plane,
+};
 use crate::{Error, Result};
 
 /// Largest equivalent sand roughness, cells: the cells beside the wall still lie above the roughness's zero of the log law.
@@ -169,6 +171,13 @@ impl Setup {
         if self.wall_model.is_some() && self.wale.is_none() {
             let message = "a wall model reads the velocity that WALE keeps; set `wale`, or leave the model out";
             return Err(Error::argument("wall_model", message));
+        }
+        let reflects = matches!(self.solid_operator, None | Some(SolidOperator::Holdych));
+        if self.sloping_faces
+            && (self.wall_model.is_none() || !reflects || self.storage != Storage::F32)
+        {
+            let message = "needs `wall_model`, the operator of Holdych and populations in 32 bits; set them, or leave it out";
+            return Err(Error::argument("sloping_faces", message));
         }
         let allowed = |name: &str, roughness: f64| match (0.0..=MAX_ROUGHNESS).contains(&roughness)
         {

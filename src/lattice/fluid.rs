@@ -176,6 +176,9 @@ impl Lattice {
         }
         self.faces_found = true;
         self.streams.record(pass, self.parity(), true);
+        if let Some(dispatch) = &self.of_blocks.sloping[self.parity()] {
+            dispatch.record(pass);
+        }
     }
 
     /// Records the rest of a step after [`Lattice::record_psm`]: all other bricks. Streaming is in

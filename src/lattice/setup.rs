@@ -199,6 +199,9 @@ pub struct Setup {
     /// Law of the wall for the friction of walls at rest, static solids and grid-aligned faces of blocks, if a wall is plane and
     /// has five cells of fluid in front of it; no slip elsewhere. It needs `wale`. `None`: no code for it.
     pub wall_model: Option<WallModel>,
+    /// Whether it also acts on faces of blocks at an angle to the grid, and on edges. It needs `wall_model`, the operator of
+    /// Holdych, and populations in 32 bits.
+    pub sloping_faces: bool,
     /// Equivalent sand roughness k_s of the faces of the domain, cells: lower and upper of x, y, z. 0 is smooth.
     pub wall_roughness: [[f64; 2]; 3],
     /// The same for each static solid cell, x fastest; empty if all are smooth.
@@ -260,6 +263,7 @@ impl Setup {
             wale: None,
             wale_interval: 2,
             wall_model: None,
+            sloping_faces: false,
             wall_roughness: [[0.0; 2]; 3],
             solid_roughness: Vec::new(),
             force: Force::None,
@@ -295,6 +299,11 @@ impl Setup {
     /// Whether the wall model acts on blocks. With 16-bit storage GPUs lack the registers for it.
     pub fn has_block_friction(&self) -> bool {
         self.wall_model.is_some() && self.solid_operator.is_some() && self.storage == Storage::F32
+    }
+
+    /// Whether it also acts on faces of blocks at an angle to the grid.
+    pub fn has_sloping_friction(&self) -> bool {
+        self.has_block_friction() && self.sloping_faces
     }
 
     /// The weight of the solid operator, [`SolidWeight::Standard`] without an operator.

@@ -26,6 +26,9 @@ pub struct Numerics {
     /// Law of the wall for the friction of walls and solids at rest, and of grid-aligned faces of blocks. It
     /// needs `eddy_viscosity = "wale"`. Default `none`.
     pub wall_model: WallModel,
+    /// Whether it also acts on faces of blocks at an angle to the grid, and on edges; with `solid_operator = "holdych"` and
+    /// `storage = "f32"`. Default `false`.
+    pub sloping_faces: bool,
     /// Precision of the stored populations. Default `f32`.
     pub storage: Storage,
     /// Cells per invocation of a kernel: 1, 2 (`f16` only) or 4. Default: chosen
@@ -65,6 +68,7 @@ impl Default for Numerics {
             wale_constant: 0.5,
             wale_interval: 2,
             wall_model: WallModel::default(),
+            sloping_faces: false,
             storage: Storage::default(),
             lanes: None,
             time_step: None,
@@ -230,6 +234,15 @@ impl Scene {
                 "numerics.wall_model",
                 "needs eddy_viscosity = \"wale\": walls whose friction is modelled have turbulent water before them; set it, \
                  or leave `wall_model` out",
+            );
+        }
+        let acts = n.wall_model != WallModel::None
+            && n.solid_operator == SolidOperator::Holdych
+            && n.storage == Storage::F32;
+        if n.sloping_faces && !acts {
+            return refuse(
+                "numerics.sloping_faces",
+                "needs a `wall_model`, solid_operator = \"holdych\" and storage = \"f32\"; set them, or leave it out",
             );
         }
         self.check_lanes()

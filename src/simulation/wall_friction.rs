@@ -53,7 +53,7 @@ pub struct WallFriction {
 /// The walls on which the wall model of a scene acts, and the friction there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WallFrictions {
-    /// Each wall next to a cell; its area is the square of the cell's edge.
+    /// Each wall next to a cell; its area is the square of the cell's edge over the largest component of the normal.
     pub walls: Vec<WallFriction>,
     /// Edge of a cell, m.
     pub cell: f64,
@@ -148,11 +148,10 @@ impl LatticeFluid {
     fn block_friction(&self, block: &BlockFace) -> WallFriction {
         let (units, grid) = (&self.units, self.lattice.grid());
         let (axis, side) = (block.face as usize / 2, block.face as usize % 2);
-        let mut normal = [0.0; 3];
-        normal[axis] = [-1.0, 1.0][side];
+        let normal = block.normal.map(f64::from);
         let cell = grid.padded_cell(block.cell);
         let mut position = self.scene.centre(cell);
-        position[axis] += (0.5 + f64::from(block.fraction)) * units.cell * normal[axis];
+        position[axis] += (0.5 + f64::from(block.fraction)) * units.cell * [-1.0, 1.0][side];
         let friction_velocity = units.velocity_from_lattice(f64::from(block.friction));
         WallFriction {
             position,
@@ -178,13 +177,20 @@ pub fn wall_surface(frictions: &WallFrictions) -> Surface {
     let half = 0.5 * frictions.cell;
     let walls = &frictions.walls;
     let square = |wall: &WallFriction| {
-        let axis = wall.normal.iter().position(|n| *n != 0.0).unwrap_or(2);
+        // A sloping face has the part within the column of a cell.
+        let size = wall.normal.map(f64::abs);
+        let axis = (1..3).fold(
+            0,
+            |best, axis| if size[axis] > size[best] { axis } else { best },
+        );
         let (a, b) = in_plane(axis);
+        let rise = |along: usize| -wall.normal[along] / wall.normal[axis];
         [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
             .map(|[i, j]| {
                 let mut corner = wall.position;
                 corner[a] += i * half;
                 corner[b] += j * half;
+                corner[axis] += (i * rise(a) + j * rise(b)) * half;
                 corner
             })
             .to_vec()

@@ -77,6 +77,7 @@ fn structures_of_the_lattice() {
         ("share", offset_of!(BlockFace, share)),
         ("stress", offset_of!(BlockFace, stress)),
         ("fraction", offset_of!(BlockFace, fraction)),
+        ("normal", offset_of!(BlockFace, normal)),
     ];
     let blocks = linked("block_friction").module;
     check::<BlockFace>(&blocks, "BlockFace", &face).unwrap();

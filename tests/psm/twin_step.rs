@@ -336,12 +336,85 @@ fn friction_of_blocks() {
     }
 }
 
+/// A moving slab whose upper face rises along x and, less, along z, up to its edges.
+fn slab([nx, ny, nz]: [usize; 3], cell: usize) -> Solid {
+    let at = [cell % nx, cell / nx % ny, cell / nx / ny];
+    let fraction = |[x, y, z]: [usize; 3]| match y {
+        0 | 1 => 0.0,
+        _ => (5.3125 + 0.4375 * x as f64 + 0.1875 * z as f64 - y as f64).clamp(0.0, 1.0),
+    };
+    let own = fraction(at);
+    let holds_solid = |(axis, step): (usize, usize)| {
+        let mut other = at;
+        other[axis] = (at[axis] + step) % [nx, ny, nz][axis];
+        fraction(other) > 0.0
+    };
+    let mut neighbours = [nx, ny, nz]
+        .into_iter()
+        .enumerate()
+        .flat_map(|(axis, n)| [(axis, 1), (axis, n - 1)]);
+    Solid {
+        fraction: own,
+        shares: own,
+        velocity: [0.0078125, 0.001953125, -0.00390625].map(|v| v * f64::from(u8::from(own > 0.0))),
+        beside: own == 0.0 && neighbours.any(holds_solid),
+        ..Solid::default()
+    }
+}
+
+#[test]
+fn friction_of_sloping_faces() {
+    let cells = [12, 28, 10];
+    let layouts = [
+        (Storage::F32, 1, 2, [4, 4, 2]),
+        (Storage::F32, 4, 1, [8, 4, 1]),
+        (Storage::F16, 2, 2, [4, 2, 4]),
+    ];
+    for (storage, lanes, axis, brick) in layouts {
+        // From no contribution of the law of the wall to its full contribution.
+        for nu in [3e-3, 2e-5, 1e-6] {
+            let mut setup = Setup::periodic(cells.map(|n| n as u32), nu);
+            (setup.storage, setup.lanes, setup.lane_axis, setup.brick) =
+                (storage, lanes, axis, brick);
+            setup.solid_operator = Some(SolidOperator::Holdych);
+            setup.wale = Some(0.5);
+            setup.wall_model = Some(WallModel::Reichardt);
+            setup.sloping_faces = storage == Storage::F32;
+            setup.force = Force::Constant([1e-5, 0.0, 2e-6]);
+            let mut subject = Subject::new(&setup);
+            let bricks: Vec<u32> = (0..subject.lattice.grid().bricks().iter().product()).collect();
+            subject.fill_with(&bricks, |cell| slab(cells, cell));
+            for steps in [1, 1, 3] {
+                subject.rig.run(&mut subject.lattice, steps);
+                subject.twin.run(steps - 1);
+                let forces = subject.force_error(&bricks);
+                subject.twin.step();
+                let populations = subject.population_error();
+                let name = format!("{storage:?}, {lanes} lanes, nu {nu}, step {steps}");
+                println!("{name}: populations {populations:e}, forces {forces:e}");
+                assert!(populations.max(forces) < limit(&setup), "{name}");
+                let sloping = subject.twin.sloping_faces().len();
+                assert!(
+                    sloping > 40 || storage == Storage::F16,
+                    "{name}: {sloping} faces"
+                );
+                assert_equal_faces(&name, &subject);
+            }
+            assert_restarts(&mut subject, |again| {
+                again.fill_with(&bricks, |cell| slab(cells, cell));
+            });
+        }
+    }
+}
+
 /// Asserts that the lattice lists the same faces as its twin.
 fn assert_equal_faces(name: &str, subject: &Subject) {
+    let mut expected = subject.twin.block_faces();
+    expected.extend(subject.twin.sloping_faces());
+    expected.sort_by_key(|(cell, ..)| *cell);
     let (device, queue) = (&subject.rig.device, &subject.rig.queue);
     let found = subject.lattice.block_faces(device, queue);
     let found = subject.rig.wait(found).unwrap();
-    let expected = subject.twin.block_faces();
     assert_eq!(found.faces.len(), expected.len(), "{name}");
     if subject.setup.storage == Storage::F16 {
         assert!(expected.is_empty() && found.area == 0, "{name}");

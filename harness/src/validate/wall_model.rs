@@ -26,6 +26,10 @@ const PLATES_H: f64 = 12.0;
 const PLATE: f64 = 8.0;
 const PLATES: [u32; 3] = [48, 32, 24];
 
+/// Edge of a square rod, and the periodic box of one rod, cells.
+const ROD: f64 = 24.0;
+const RODS: [u32; 3] = [48, 48, 24];
+
 /// A channel 4 depths long and 2 depths wide, between walls or between a wall and a face without friction.
 #[derive(Clone, Copy, Debug)]
 struct Channel {
@@ -39,6 +43,14 @@ struct Channel {
     /// Mean velocity over the friction velocity.
     expected: f64,
     model: Option<WallModel>,
+}
+
+/// A stream along square rods that are blocks, at Re_τ 5200 by the ratio of the cross-section of the water to its perimeter.
+#[derive(Clone, Copy, Debug)]
+struct Rods {
+    /// Their angle to the grid, degrees.
+    angle: f64,
+    model: bool,
 }
 
 /// Averages of a channel.
@@ -223,6 +235,102 @@ impl Plates {
         let mut plate = block(shape, middle, motion);
         plate.velocity = numbers([self.velocity, 0.0, 0.0]);
         scene.blocks.push(plate);
+        Ok(scene)
+    }
+}
+
+/// Friction of rods whose faces lie along the grid and at an angle to it, and without the model.
+pub fn rods(context: &CaseContext) -> Outcome {
+    let turned = |angle| Rods { angle, model: true };
+    let all = [
+        turned(0.0),
+        turned(0.5_f64.atan().to_degrees()),
+        turned(45.0),
+        Rods {
+            model: false,
+            ..turned(0.5_f64.atan().to_degrees())
+        },
+    ];
+    let mut records = Vec::new();
+    for rods in all {
+        records.extend(rods.judge(context)?);
+    }
+    Ok(records)
+}
+
+impl Rods {
+    /// Cross-section of the water, and its ratio to the perimeter.
+    fn section() -> [f64; 2] {
+        let area = f64::from(RODS[0] * RODS[1]) - ROD * ROD;
+        [area, area / (4.0 * ROD)]
+    }
+
+    fn judge(&self, context: &CaseContext) -> anyhow::Result<[Record; 2]> {
+        let (reynolds, expected) = CHANNELS[1];
+        let [area, h] = Self::section();
+        let friction = BULK / expected;
+        let force = friction * friction / h;
+        let mut tank = Tank::fill(context, &self.scene(friction, reynolds)?)?;
+        let time = h / friction;
+        tank.advance(2 * time as u64)?;
+        let each = (time as u64 / SAMPLES) | 1;
+        let mut bulk = Vec::new();
+        for _ in 0..=SAMPLES {
+            tank.advance(each)?;
+            bulk.push(tank.totals()?.momentum[2] / (area * f64::from(RODS[2])));
+        }
+        let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
+        let stress = h * (force - change);
+        let mean = bulk.iter().sum::<f64>() / bulk.len() as f64;
+        let trial = tank.trial("square rods that are blocks");
+        let mut place = format!("at {:.1}° to the grid", self.angle);
+        if !self.model {
+            place += ", no model";
+        }
+        let found = mean / stress.max(0.0).sqrt();
+        let limit = self.model.then_some(PLATES_LIMIT);
+        let part = stress / (mean / expected).powi(2);
+        Ok([
+            trial.relative(format!("U_b⁺, {place}"), found, expected, limit),
+            trial.report(format!("friction / published, {place}"), part),
+        ])
+    }
+
+    /// The flow begins with the log law around a round rod of the same perimeter, and vortices that break up.
+    fn scene(&self, friction: f64, reynolds: f64) -> anyhow::Result<Scene> {
+        let [_, h] = Self::section();
+        let middle = RODS.map(|cells| 0.5 * f64::from(cells));
+        let nu = friction * h / reynolds;
+        let mut scene = tank::scene(RODS, 0.5 + 3.0 * nu)?;
+        scene.numerics.eddy_viscosity = EddyViscosity::Wale;
+        if self.model {
+            scene.numerics.wall_model = scene::WallModel::WernerWengle;
+        }
+        scene.numerics.sloping_faces = self.model;
+        scene.fluid.acceleration = numbers([0.0, 0.0, friction * friction / h]);
+        let from_middle = format!("sqrt((x - {})^2 + (y - {})^2)", middle[0], middle[1]);
+        let from_rod = format!(
+            "max(0, {from_middle} - {})",
+            2.0 * ROD / std::f64::consts::PI
+        );
+        let wall_units = 0.384 * friction / nu;
+        let [x, y, z] = ["x", "y", "z"].map(|axis| format!("(2*pi*{axis}/{ROD})"));
+        let velocity = [
+            format!("0.003*sin{y}*cos{z}"),
+            format!("0.003*sin{z}*cos{x}"),
+            format!(
+                "{friction}*(log(1 + {from_rod}*{wall_units})/0.384 + 2) + 0.003*sin{x}*cos{y}"
+            ),
+        ];
+        for (component, text) in scene.initial.velocity.iter_mut().zip(velocity) {
+            *component = text.parse()?;
+        }
+        let shape = BlockShape::Box {
+            size: [ROD, ROD, f64::from(RODS[2])],
+        };
+        let mut rod = block(shape, middle, Motion::Fixed);
+        rod.rotation.angle = self.angle;
+        scene.blocks.push(rod);
         Ok(scene)
     }
 }

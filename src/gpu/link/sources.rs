@@ -19,7 +19,7 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "odd_rates_bulk", "odd_rates_solids", "odd_rates_walls", "operator_holdych", "operator_noble", "operator_superposition",
         "outflow", "pressure_face", "quantity_eddy_viscosity", "quantity_q_criterion", "quantity_vorticity",
         "reals_direct", "reals_wide", "relax_bgk", "relax_hermite", "relax_suga", "psm_cells", "psm_none", "psm_surface", "sample_observed", "sample_populations", "sampling_none", "sampling_sums", "scalar_grid", "store_f16", "store_f32", "synthetic_turbulence",
-        "statistics", "stream", "sum_sample", "sums", "surface_fraction", "surface_none", "surface_stored", "velocity", "wale", "wale_every_second_step", "wale_every_step", "wall_blocks_marked", "wall_blocks_none", "wall_cells", "wall_law_reichardt", "wall_law_werner_wengle", "wall_model", "wall_rates", "weights", "block_friction", "block_friction_none", "block_friction_stored", "bricks_all", "bricks_listed", "law_of_the_wall", "mixing_length", "psm_bricks", "psm_places",
+        "statistics", "stream", "sum_sample", "sums", "surface_cells", "sloping_faces", "near_wall_bits", "sloping_friction", "surface_fraction", "surface_none", "surface_stored", "velocity", "wale", "wale_every_second_step", "wale_every_step", "wall_blocks_marked", "wall_blocks_none", "wall_cells", "wall_law_reichardt", "wall_law_werner_wengle", "wall_model", "wall_rates", "weights", "block_friction", "block_friction_none", "block_friction_stored", "bricks_all", "bricks_listed", "law_of_the_wall", "mixing_length", "psm_bricks", "psm_places",
         "weight_exact", "weight_standard", "word_f16_2", "word_f16_4", "word_f16_4_wide";
     "gpu":
         "bin_count", "bin_scatter", "invocation", "saturate", "scan_spread", "scan_sum";

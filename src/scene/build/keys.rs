@@ -9,7 +9,7 @@ pub(crate) fn lattice_key(what: &str) -> String {
         "force" => "fluid.acceleration".into(),
         "wale" => "numerics.wale_constant".into(),
         "lanes" | "lambda" | "wall_lambda" | "solid_lambda" | "odd_rate_floor"
-        | "solid_operator" | "solid_weight" | "wale_interval" | "wall_model" => {
+        | "solid_operator" | "solid_weight" | "wale_interval" | "wall_model" | "sloping_faces" => {
             format!("numerics.{what}")
         }
         "joint_aperture" => "coupling.joint_aperture".into(),

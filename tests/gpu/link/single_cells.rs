@@ -47,6 +47,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
             "forget_outer_cells",
             "list_outer_cells",
             "find_faces",
+            "find_slopes",
             "block_friction",
             "clear_viscosity",
             "list_block_faces",
@@ -62,6 +63,11 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
             "face_counts",
             "found_faces",
         ],
+    ),
+    (
+        "sloping_friction",
+        &["sloping_friction"],
+        &["bricks", "outer_cells", "psm_planes_0", "cell_pass"],
     ),
     (
         "pressure_face",

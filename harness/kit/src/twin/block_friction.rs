@@ -117,9 +117,29 @@ impl Twin {
         faces.map(of).collect()
     }
 
-    /// The share of the law in a full cell, 0 without a face where it acts.
+    /// Whether a cell is under such a face, or cut by one.
+    pub(super) fn is_at_aligned_face(&self, cell: usize) -> bool {
+        self.friction_in(cell).is_some() || self.face_that_cuts(cell).is_some()
+    }
+
+    /// The friction on the face that cuts a cell.
+    fn face_that_cuts(&self, cell: usize) -> Option<Friction> {
+        let fraction = self.block_at(cell).fraction;
+        let faces = (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]);
+        let mut behind = faces.filter_map(|(axis, out)| {
+            let solid = self.domain.fluid_neighbour(cell, axis, -out)?;
+            let law = self.friction_in(solid)?;
+            (law.face.axis == axis && law.face.out == out).then_some(law)
+        });
+        behind.next().filter(|_| fraction > 0.0 && fraction < FULL)
+    }
+
+    /// The share of the law in a full cell at a face where it acts, else 0.
     pub(super) fn part_of_law(&self, cell: usize) -> f64 {
-        self.friction_in(cell).map_or(0.0, |law| law.share)
+        match self.friction_in(cell) {
+            Some(law) => law.share,
+            None => self.share_at_slope(cell),
+        }
     }
 
     /// Adds the stress of the law to the change by the solid in a cell, where the block moves with `v`. In the cell under a face,
@@ -127,18 +147,9 @@ impl Twin {
     /// cuts exchanges none.
     pub(super) fn apply_wall_stress(&self, cell: usize, v: [f64; 3], change: &mut [f64; Q]) {
         let own = self.friction_in(cell);
-        let fraction = self.block_at(cell).fraction;
-        let cut = || {
-            let faces = (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]);
-            let behind = faces.filter_map(|(axis, out)| {
-                let solid = self.domain.fluid_neighbour(cell, axis, -out)?;
-                let law = self.friction_in(solid)?;
-                (law.face.axis == axis && law.face.out == out).then_some(law)
-            });
-            behind.into_iter().next()
+        let Some(law) = own.or_else(|| self.face_that_cuts(cell)) else {
+            return;
         };
-        let cut = (fraction > 0.0 && fraction < FULL).then(cut).flatten();
-        let Some(law) = own.or(cut) else { return };
         let (n, f) = (law.face.axis, self.f[cell]);
         let rho = macroscopic(&f, [0.0; 3]).0;
         let along_n = |i: usize| C[i][n] * law.face.out;

@@ -146,7 +146,13 @@ impl Twin {
         let change = self.solid_change(cell, velocity, tau);
         let force = force_on(self.weight(cell, tau), &solid, part, &change);
         let lost = self.lost_to_walls(cell);
-        [0, 1, 2].map(|a| force[a] + lost[a] * part / solid.shares.max(1.0))
+        let nu_t = (tau - self.config.tau_eff(0.0)) / 3.0;
+        let gain = self.sloping_gain(cell, &self.collided_in(cell, nu_t));
+        let gained = |a: usize| (0..Q).map(|i| gain[i] * f64::from(C[i][a])).sum::<f64>();
+        [0, 1, 2].map(|a| {
+            let at_walls = lost[a] * part / solid.shares.max(1.0);
+            force[a] + at_walls - gained(a) * part / solid.shares
+        })
     }
 
     /// B of the momentum in a cell.
@@ -168,6 +174,7 @@ impl Twin {
             let u = &self.velocity_before();
             near_wall = model.viscosity(&self.domain, self.config.nu(), u, &self.blocks_before);
             self.add_near_blocks(&mut near_wall);
+            self.add_above_slopes(&mut near_wall);
         }
         let by_wale = self.nu_t_by_wale();
         self.cells()
@@ -226,12 +233,18 @@ impl Twin {
                 if self.domain.solid[cell] {
                     return [0.0; Q];
                 }
-                let (f, force) = (&self.f[cell], self.force_at(cell));
-                let odd = self.odd_class(cell);
-                let fluid = collide(&self.config, f, force, nu_t[cell], odd);
-                self.saturate(cell, &fluid, self.config.tau_eff(nu_t[cell]))
+                let found = self.collided_in(cell, nu_t[cell]);
+                let gain = self.sloping_gain(cell, &found);
+                std::array::from_fn(|i| found[i] + gain[i])
             })
             .collect()
+    }
+
+    /// Populations of a cell after the collision.
+    fn collided_in(&self, cell: usize, nu_t: f64) -> [f64; Q] {
+        let (f, force) = (&self.f[cell], self.force_at(cell));
+        let fluid = collide(&self.config, f, force, nu_t, self.odd_class(cell));
+        self.saturate(cell, &fluid, self.config.tau_eff(nu_t))
     }
 
     /// f* = f + (1 − B)(fluid − f) + B Ω^s.
@@ -256,7 +269,8 @@ impl Twin {
         };
         let how = (*operator, cells[cell].deep);
         let (f, force) = (&self.f[cell], self.force_at(cell));
-        let mut change = solid_change(&self.config, how, f, force, tau, u_s);
+        let slides = self.sliding_velocity(cell, u_s);
+        let mut change = solid_change(&self.config, how, f, force, tau, slides);
         self.apply_wall_stress(cell, u_s, &mut change);
         change
     }

@@ -89,6 +89,7 @@ pub fn twin_of(setup: &Setup) -> Twin {
         roughness: setup.wall_roughness,
         solid_roughness: setup.solid_roughness.clone(),
         on_blocks: setup.has_block_friction(),
+        on_slopes: setup.has_sloping_friction(),
     });
     twin.blocks = setup.operator().map(blocks);
     twin.force = match &setup.force {

@@ -24,6 +24,8 @@ pub struct WallModel {
     pub solid_roughness: Vec<f32>,
     /// Whether it acts on blocks.
     pub on_blocks: bool,
+    /// Whether it also acts on faces at an angle to the grid.
+    pub on_slopes: bool,
 }
 
 /// A cell whose face `axis`, `side` is a plane wall.

@@ -1,0 +1,237 @@
+// Asmuth et al. 2021, Phys. Fluids 33:105111, for faces of blocks at an angle to the grid. The heights of the solid in columns of
+// cells, along the axis nearest to the normal, give the face near each cell at the surface. The law of the wall reads the velocity
+// in the column at least four cells from the face. block_friction_stored.wgsl lets the fluid slide in cells that the face cuts,
+// and sloping_friction.wgsl applies the stress.
+// needs surface_cells, cell_velocities, law_of_the_wall, mixing_length, near_wall_bits, lattice
+
+// Largest slope towards the nearest axis, above 1 since normals at equal angles to two axes are rounded.
+const LARGEST_SLOPE = 1.2;
+// Largest sum of the differences of height to the columns on both sides: more at edges.
+const FLAT = 0.2;
+// Cells from the surface in a column between full and empty cells, and cells up to the one whose velocity the law reads.
+const PARTIAL = 4u;
+const REACH = 12u;
+// Distance of that cell from the face, at least, and distance up to which the eddy viscosity follows from the law.
+const SAMPLE_DISTANCE = 4.0;
+const NO_COLUMN = -99.0;
+// Ratio of the two largest components towards less solid from which a column may run along the second: where the only cells that
+// are not full lie across an edge of the cell, both are equal, and the axis nearest to the normal may be the second.
+const DIAGONAL = 0.9;
+
+// Solid fraction of a cell.
+fn fraction_at(cell: vec3<u32>) -> f32 {
+    return fraction_in(psm_place(cell));
+}
+
+// The same, from the slot of its brick, from 1 or 0, and its place there.
+fn fraction_in(at: vec2<u32>) -> f32 {
+    return select(0.0, read_psm(PLANE_FRACTION, max(at.x, 1u) - 1u, at.y), at.x > 0u);
+}
+
+// A cell with its neighbours on the torus of the domain: the slot of (x + a, y + b, z + c) is psm_slots[brick_x[1 + a] +
+// brick_y[1 + b] + brick_z[1 + c]], and its place is the sum of those of the axes, as psm_place has them.
+struct PsmNeighbourhood {
+    brick_x: vec3<u32>,
+    brick_y: vec3<u32>,
+    brick_z: vec3<u32>,
+    place_x: vec3<u32>,
+    place_y: vec3<u32>,
+    place_z: vec3<u32>,
+}
+
+fn psm_neighbourhood(cell: vec3<u32>) -> PsmNeighbourhood {
+    let x = on_ring(cell.x, CELLS_X);
+    let y = on_ring(cell.y, CELLS_Y);
+    let z = on_ring(cell.z, CELLS_Z);
+    let in_y = y % vec3(NY);
+    let in_z = z % vec3(NZ);
+    let bricks_x = (NX + BRICK_X - 1u) / BRICK_X;
+    let bricks_y = (NY + BRICK_Y - 1u) / BRICK_Y;
+    return PsmNeighbourhood(
+        x / vec3(BRICK_X),
+        bricks_x * (in_y / vec3(BRICK_Y)),
+        bricks_x * bricks_y * (in_z / vec3(BRICK_Z)),
+        LANES_OF_ELEMENT * (x % vec3(BRICK_X)),
+        LANES_OF_ELEMENT * BRICK_X * (in_y % vec3(BRICK_Y)) + y / vec3(NY),
+        LANES_OF_ELEMENT * BRICK_X * BRICK_Y * (in_z % vec3(BRICK_Z)) + z / vec3(NZ),
+    );
+}
+
+fn on_ring(i: u32, n: u32) -> vec3<u32> {
+    return vec3(select(i - 1u, n - 1u, i == 0u), i, select(i + 1u, 0u, i + 1u == n));
+}
+
+// Height of the solid in the column of a cell, from its centre towards a face; NO_COLUMN if the column is no full solid below no
+// solid.
+fn column_height(cell: vec3<u32>, face: u32) -> f32 {
+    let own = fraction_at(cell);
+    var height = own - 0.5;
+    var at = cell;
+    var fraction = own;
+    for (var k = 0u; fraction > 0.0; k++) {
+        if (k == PARTIAL) {
+            return NO_COLUMN;
+        }
+        at = through(at, face, 1u);
+        fraction = fraction_at(at);
+        height += fraction;
+    }
+    at = cell;
+    fraction = own;
+    for (var k = 0u; fraction < FULL; k++) {
+        if (k == PARTIAL) {
+            return NO_COLUMN;
+        }
+        at = through(at, face ^ 1u, 1u);
+        fraction = fraction_at(at);
+        height += fraction - 1.0;
+    }
+    return height;
+}
+
+// Slope of the surface along an axis, from the columns on both sides; LARGEST_SLOPE or more where there is no flat face.
+fn slope_along(cell: vec3<u32>, face: u32, axis: u32, height: f32) -> f32 {
+    let before = column_height(through(cell, 2u * axis, 1u), face);
+    let after = column_height(through(cell, 2u * axis + 1u, 1u), face);
+    let flat = before != NO_COLUMN && after != NO_COLUMN && abs(before + after - 2.0 * height) <= FLAT;
+    return select(LARGEST_SLOPE, 0.5 * (after - before), flat);
+}
+
+// Whether the cells of a column beyond `after` others, up to one of them, are fluid and hold no solid, if the face cannot cut them.
+fn has_fluid(cell: vec3<u32>, face: u32, height: f32, after: u32, cells: u32) -> bool {
+    var at = through(cell, face, after);
+    for (var k = after + 1u; k <= cells; k++) {
+        if ((flags_of(at) & ((1u << face) | SOLID)) != 0u) {
+            return false;
+        }
+        at = through(at, face, 1u);
+        if (f32(k) > height + 2.0 && fraction_at(at) > 0.0) {
+            return false;
+        }
+    }
+    return (flags_of(at) & SOLID) == 0u;
+}
+
+fn largest_axis(size: vec3<f32>) -> u32 {
+    return select(select(2u, 1u, size.y >= size.z), 0u, size.x >= size.y && size.x >= size.z);
+}
+
+fn face_towards(direction: vec3<f32>, axis: u32) -> u32 {
+    return 2u * axis + select(0u, 1u, direction[axis] > 0.0);
+}
+
+// The data of a cell at the surface of a block, whose number is that of `cell`.
+fn sloping_face(number: u32, cell: vec3<u32>, here: Solid) -> SurfaceCell {
+    var found: SurfaceCell;
+    found.number = number;
+    found.slope = NO_SLOPE;
+    if (here.interior || here.several || !may_have_face(cell)) {
+        return found;
+    }
+    // Towards less solid; the weights of Youngs 1984.
+    let around = psm_neighbourhood(cell);
+    var less = vec3(0.0);
+    for (var q = 1u; q < 27u; q++) { // unroll
+        let slot = psm_slots[around.brick_x[1 + C[q].x] + around.brick_y[1 + C[q].y] + around.brick_z[1 + C[q].z]];
+        let place = around.place_x[1 + C[q].x] + around.place_y[1 + C[q].y] + around.place_z[1 + C[q].z];
+        let fraction = fraction_in(vec2(slot, place));
+        found.open |= select(0u, 1u << q, fraction < FULL);
+        less -= f32(4u >> u32(abs(C[q].x) + abs(C[q].y) + abs(C[q].z) - 1)) * fraction * vec3<f32>(C[q]);
+    }
+    if (found.open == 0u || length(less) < 1e-3) {
+        return found;
+    }
+    var axis = largest_axis(abs(less));
+    var height = column_height(cell, face_towards(less, axis));
+    var others = abs(less);
+    others[axis] = 0.0;
+    let second = largest_axis(others);
+    if (height == NO_COLUMN && others[second] > DIAGONAL * abs(less[axis])) {
+        axis = second;
+        height = column_height(cell, face_towards(less, axis));
+    }
+    let up = less[axis] > 0.0;
+    let face = face_towards(less, axis);
+    // No face is nearer than this along the axis.
+    let nearest = u32(ceil(SAMPLE_DISTANCE + height));
+    if (height == NO_COLUMN || !has_fluid(cell, face, height, 0u, nearest)) {
+        return found;
+    }
+    let along = vec2((axis + 1u) % 3u, (axis + 2u) % 3u);
+    let slope = vec2(slope_along(cell, face, along.x, height), slope_along(cell, face, along.y, height));
+    // At edges, the direction towards less solid.
+    var normal = less;
+    if (max(abs(slope.x), abs(slope.y)) < LARGEST_SLOPE) {
+        normal[axis] = select(-1.0, 1.0, up);
+        normal[along.x] = -slope.x;
+        normal[along.y] = -slope.y;
+    }
+    found.normal = normalize(normal);
+    let rise = abs(found.normal[axis]);
+    let top = here.fraction >= FULL && fraction_at(through(cell, face, 1u)) < FULL;
+    let cells = u32(ceil(SAMPLE_DISTANCE / rise + height));
+    if (cells > REACH || !has_fluid(cell, face, height, nearest, cells)) {
+        return found;
+    }
+    found.open = select(0u, found.open, here.fraction >= FULL);
+    found.slope = face | select(0u, SLOPE_TOP, top) | (cells << SLOPE_CELLS);
+    found.sample = scalar_of(through(cell, face, cells));
+    found.distance = (f32(cells) - height) * rise;
+    return found;
+}
+
+// Result of the law at a sloping face, with the velocity of the block.
+fn law_at_slope(face: SurfaceCell, velocity: vec3<f32>) -> SurfaceCell {
+    var found = face;
+    let u = vec3(read_velocity(0u, face.sample), read_velocity(1u, face.sample), read_velocity(2u, face.sample)) - velocity;
+    found.u = u - dot(u, face.normal) * face.normal;
+    found.friction = sqrt(law_of_the_wall(length(found.u), face.distance, 0.0));
+    return found;
+}
+
+fn velocity_of_block(here: Solid) -> vec3<f32> {
+    return vec3(
+        read_psm(PLANE_VELOCITY, here.slot, here.place),
+        read_psm(PLANE_VELOCITY + 1u, here.slot, here.place),
+        read_psm(PLANE_VELOCITY + 2u, here.slot, here.place),
+    );
+}
+
+// Applies the law at a sloping face, for the next step: data for the cells that it cuts, and the eddy viscosity of the fluid above.
+fn apply_at_slope(n: u32, here: OuterCell) {
+    if (outer_cells.cells[n].slope == NO_SLOPE) {
+        return;
+    }
+    let face = outer_cells.cells[n];
+    let law = law_at_slope(face, velocity_of_block(here.solid));
+    outer_cells.cells[n].u = law.u;
+    outer_cells.cells[n].friction = law.friction;
+    let share = model_share(law.friction);
+    write_psm(PLANE_SHARE, here.solid.slot, here.solid.place, share);
+    if (here.solid.fraction < FULL) {
+        for (var a = 0u; a < 3u; a++) { // unroll
+            write_psm(PLANE_STRESS + a, here.solid.slot, here.solid.place, law.normal[a]);
+        }
+    }
+    set_viscosity_above(face, here.cell, law.friction * share);
+}
+
+// Sets the eddy viscosity of the fluid above the uppermost full cell of a column: that of the mixing length, or 0.
+fn set_viscosity_above(face: SurfaceCell, cell: vec3<u32>, friction: f32) {
+    if ((face.slope & SLOPE_TOP) == 0u) {
+        return;
+    }
+    let nearest = face.slope & 7u;
+    let cells = face.slope >> SLOPE_CELLS;
+    let rise = abs(face.normal[nearest / 2u]);
+    var at = cell;
+    for (var k = 1u; k <= cells; k++) {
+        at = through(at, nearest, 1u);
+        let y = face.distance - f32(cells - k) * rise;
+        if (friction == 0.0) {
+            atomicStore(&near_wall_viscosity[scalar_of(at)], 0u);
+        } else if (y > 1.0 || (y > 0.0 && fraction_at(at) == 0.0)) {
+            atomicMax(&near_wall_viscosity[scalar_of(at)], bitcast<u32>(KARMAN * y * taper(y) * friction));
+        }
+    }
+}

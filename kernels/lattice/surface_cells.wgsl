@@ -1,0 +1,108 @@
+// Gardner & Sitar 2018, section 3.4: the cells at the surfaces of blocks, for the wall model: block_friction.wgsl and
+// sloping_friction.wgsl.
+// needs psm_bricks, psm_places, psm_planes, psm_storage_written, $neighbour_flags
+
+// Code of each cell of the bricks that blocks reach, as the bits of a float, for block_friction_stored.wgsl: 1 to 6 under a
+// grid-aligned face x-, x+, y-, y+, z-, z+ where the law acts, see CUT for a cell that such a face cuts, SLIDES, FULL_AT_SLOPE, 0 elsewhere.
+@group(0) @binding(39) var<storage, read_write> face_codes: array<atomic<u32>>;
+
+// A cell at the surface of a block.
+struct SurfaceCell {
+    // Its number in these bricks: number_of.
+    number: u32,
+    // The other data are of cells at sloping faces: see sloping_faces.wgsl. The face x-, x+, ... nearest to the sloping one,
+    // SLOPE_TOP if the cell is the uppermost full one of its column, and from the bit SLOPE_CELLS on the number of cells to the one
+    // whose velocity the law reads; or NO_SLOPE.
+    slope: u32,
+    // Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
+    open: u32,
+    // Scalar of that cell, and its distance from the face, cells.
+    sample: u32,
+    normal: vec3<f32>,
+    distance: f32,
+    // The tangential velocity that the law has read, relative to the block, and its friction velocity.
+    u: vec3<f32>,
+    friction: f32,
+}
+
+struct OuterCells {
+    count: atomic<u32>,
+    cells: array<SurfaceCell>,
+}
+
+@group(0) @binding(47) var<storage, read_write> outer_cells: OuterCells;
+
+// Solid fraction from which a cell is full.
+const FULL = 0.999;
+const NO_FACE = 6u;
+const NO_SLOPE = 0xffffu;
+const SLOPE_TOP = 8u;
+const SLOPE_CELLS = 4u;
+// The codes of a cell that a sloping face cuts, and of a full cell at one.
+const SLIDES = 13u;
+const FULL_AT_SLOPE = 14u;
+// Bits of the flags of a cell: the neighbour through a face is not fluid; the cell is not fluid.
+const FACES = 63u;
+const SOLID = 128u;
+
+// The solid in a cell, with its place in the planes.
+struct Solid {
+    slot: u32,
+    place: u32,
+    fraction: f32,
+    interior: bool,
+    several: bool,
+}
+
+fn solid_of(slot: u32, place: u32) -> Solid {
+    let sum = decode_sum(read_psm(PLANE_SUM, slot, place));
+    let fraction = select(0.0, read_psm(PLANE_FRACTION, slot, place), sum.fraction > 0.0);
+    return Solid(slot, place, fraction, sum.interior, sum.several);
+}
+
+fn solid_at(cell: vec3<u32>) -> Solid {
+    let at = psm_place(cell);
+    if (at.x == 0u) {
+        return Solid(0u, 0u, 0.0, false, false);
+    }
+    return solid_of(at.x - 1u, at.y);
+}
+
+// Whether a cell lies in the domain, away from walls.
+fn may_have_face(cell: vec3<u32>) -> bool {
+    return all(cell < vec3(CELLS_X, CELLS_Y, CELLS_Z)) && (flags_of(cell) & (FACES | SOLID)) == 0u;
+}
+
+// The cell at distance `n` through a face, also across a periodic face.
+fn through(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
+    let size = vec3(CELLS_X, CELLS_Y, CELLS_Z);
+    let axis = face / 2u;
+    var other = cell;
+    other[axis] = (cell[axis] + select(size[axis] - n, n, face % 2u == 1u)) % size[axis];
+    return other;
+}
+
+// Number of a cell of the bricks that blocks reach, slot by slot.
+fn number_of(slot: u32, place: u32) -> u32 {
+    return slot * BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT + place;
+}
+
+struct OuterCell {
+    cell: vec3<u32>,
+    number: u32,
+    solid: Solid,
+}
+
+fn outer_cell(n: u32) -> OuterCell {
+    let number = outer_cells.cells[n].number;
+    let of_brick = BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT;
+    let slot = number / of_brick;
+    let place = number % of_brick;
+    let cell = cell_at(PsmPlace(slot, place / LANES_OF_ELEMENT, place % LANES_OF_ELEMENT));
+    return OuterCell(cell, number, solid_of(slot, place));
+}
+
+// The face that find_faces has found.
+fn face_above(here: OuterCell) -> u32 {
+    return min(u32(bitcast<f32>(atomicLoad(&face_codes[here.number]))) - 1u, NO_FACE);
+}

@@ -3,6 +3,8 @@
 // previous step; block_friction_stored.wgsl applies the stress.
 // needs surface_cells, sloping_faces, near_wall_bits, cell_velocities, law_of_the_wall, mixing_length
 
+// Whether the law acts on sloping faces.
+override SLOPING: bool;
 // Number of cells in front of a face whose eddy viscosity follows from the law; the law reads the velocity of the last one.
 const DEPTH = 5u;
 // The code of a cell that a face cuts is CUT less the face: of two faces the first one counts.
@@ -165,10 +167,10 @@ fn block_friction(
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
         let here = outer_cell(n);
         let face = face_above(here);
-        if (face == NO_FACE) {
-            apply_at_slope(n, here);
-        } else {
+        if (face != NO_FACE) {
             apply_law(here, face);
+        } else if (SLOPING) {
+            apply_at_slope(n, here);
         }
     }
 }
@@ -189,7 +191,7 @@ fn clear_viscosity(
             before = through(before, face, 1u);
             atomicStore(&near_wall_viscosity[scalar_of(before)], 0u);
         }
-        if (outer_cells.cells[n].slope != NO_SLOPE) {
+        if (SLOPING && outer_cells.cells[n].slope != NO_SLOPE) {
             set_viscosity_above(outer_cells.cells[n], here.cell, 0.0);
         }
     }
@@ -236,9 +238,6 @@ struct BlockFace {
 // Number of faces of full block cells in contact with fluid, and number of these where the law acts.
 @group(0) @binding(43) var<storage, read_write> face_counts: array<atomic<u32>, 2>;
 @group(0) @binding(44) var<storage, read_write> found_faces: array<BlockFace>;
-// Whether the law acts on sloping faces.
-override SLOPING: bool;
-
 // For output: the faces where the law acts, in no particular order.
 @compute @workgroup_size(64)
 fn list_block_faces(

@@ -192,12 +192,10 @@ impl Output<'_> {
             ("wall_model", "wall_model"),
             ("mark_blocks", "mark_blocks"),
             ("block_friction", "find_faces"),
-            ("block_friction", "find_slopes"),
             ("block_friction", "list_outer_cells"),
             ("block_friction", "block_friction"),
             ("block_friction", "clear_viscosity"),
             ("block_friction", "list_block_faces"),
-            ("sloping_friction", "sloping_friction"),
             ("pressure_face", "hold_pressure"),
             ("outflow", "apply_outflow"),
             ("outflow", "store_outflow"),
@@ -217,6 +215,30 @@ impl Output<'_> {
                 .slot("quantity", "quantity_eddy_viscosity")
                 .slot("sample", "sample_populations");
             self.put(&format!("{entry}_{stored}"), &program, entry, &constants)?;
+        }
+        if setup.storage == Storage::F32 {
+            self.sloping_faces(&setup, constants)?;
+        }
+        Ok(())
+    }
+
+    /// The kernels of the wall model on sloping faces of blocks.
+    fn sloping_faces(
+        &mut self,
+        setup: &lattice::Setup,
+        mut constants: Vec<(&'static str, f64)>,
+    ) -> Outcome {
+        constants.retain(|(name, _)| *name != "SLOPING");
+        constants.push(("SLOPING", 1.0));
+        for (file, entry) in [
+            ("block_friction", "find_slopes"),
+            ("block_friction", "block_friction"),
+            ("block_friction", "clear_viscosity"),
+            ("block_friction", "list_block_faces"),
+            ("sloping_friction", "sloping_friction"),
+        ] {
+            let program = single_cells(setup, 1, file);
+            self.put(&format!("{entry}_sloping"), &program, entry, &constants)?;
         }
         Ok(())
     }

@@ -230,7 +230,10 @@ fn of_blocks(rows: &[Row], conditions: Conditions) -> Option<Accuracy> {
     }
     let resolved = most(|row| row.y_plus).max(SUBLAYER);
     if y_plus.is_some_and(|y_plus| y_plus > resolved) {
-        beyond.push("at this y⁺ friction is not resolved, and comes out too small".into());
+        beyond.push(
+            "at this y⁺ friction is not resolved: too small, or too large at an angle to the grid"
+                .into(),
+        );
     }
     let found = Accuracy::of(
         "drag on blocks",

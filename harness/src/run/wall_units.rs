@@ -39,8 +39,8 @@ impl SceneRun {
         let finer = self.scene().domain.cell * SUBLAYER / cell.y_plus;
         format!(
             "y⁺ is at least {:.1} beside {beside} at ({x:.4}, {y:.4}, {z:.4}) m, above {SUBLAYER}: no-slip \
-             shear is not resolved there and no wall model acts, so that friction comes out too small; \
-             pressure and the drag of edged bodies suffer less. Cells of {finer:.2e} m would resolve it",
+             shear is not resolved there and no wall model acts, so that friction comes out too small, \
+             or too large at faces at an angle to the grid; pressure and the drag of edged bodies suffer less. Cells of {finer:.2e} m would resolve it",
             cell.y_plus
         )
     }

@@ -1,7 +1,7 @@
 // Asmuth et al. 2021, Phys. Fluids 33:105111: the law of the wall of wall_model.wgsl on grid-aligned faces of blocks. Computes
 // the stress in each full cell under such a face, and the eddy viscosity of the fluid in front of it, from the velocity of the
 // previous step; block_friction_stored.wgsl applies the stress.
-// needs surface_cells, sloping_faces, near_wall_bits, cell_velocities, law_of_the_wall, mixing_length
+// needs sloping_faces, near_wall_bits, mixing_length
 
 // Whether the law acts on sloping faces.
 override SLOPING: bool;
@@ -107,10 +107,10 @@ fn list_outer_cells(
     let number = number_of(at.slot, place);
     atomicStore(&face_codes[number], 0u);
     let sum = read_psm(PLANE_SUM, at.slot, place);
-    if (sum > 0.0 && sum < INTERIOR_SUM && !decode_sum(sum).several && may_have_face(cell_at(at))) {
-        let n = atomicAdd(&outer_cells.count, 1u);
-        outer_cells.cells[n].number = number;
-        outer_cells.cells[n].slope = NO_SLOPE;
+    // Grid-aligned faces are found from the full cells under them.
+    let least = select(0.9, 0.0, SLOPING);
+    if (sum > least && sum < INTERIOR_SUM && !decode_sum(sum).several && may_have_face(cell_at(at))) {
+        outer_cells.cells[atomicAdd(&outer_cells.count, 1u)] = number;
     }
 }
 
@@ -135,27 +135,6 @@ fn find_faces(
     }
 }
 
-// Finds the sloping faces, at cells without a grid-aligned one.
-@compute @workgroup_size(64)
-fn find_slopes(
-    @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
-    @builtin(local_invocation_index) local: u32,
-) {
-    let count = atomicLoad(&outer_cells.count);
-    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
-        let here = outer_cell(n);
-        if (atomicLoad(&face_codes[here.number]) == 0u) {
-            let face = sloping_face(here.number, here.cell, here.solid);
-            outer_cells.cells[n] = face;
-            if (face.slope != NO_SLOPE) {
-                let code = select(SLIDES, FULL_AT_SLOPE, here.solid.fraction >= FULL);
-                atomicStore(&face_codes[here.number], bitcast<u32>(f32(code)));
-            }
-        }
-    }
-}
-
 // Applies the law at these faces, for the next step.
 @compute @workgroup_size(64)
 fn block_friction(
@@ -169,8 +148,6 @@ fn block_friction(
         let face = face_above(here);
         if (face != NO_FACE) {
             apply_law(here, face);
-        } else if (SLOPING) {
-            apply_at_slope(n, here);
         }
     }
 }
@@ -190,9 +167,6 @@ fn clear_viscosity(
         for (var k = 0u; k < DEPTH && face != NO_FACE; k++) {
             before = through(before, face, 1u);
             atomicStore(&near_wall_viscosity[scalar_of(before)], 0u);
-        }
-        if (SLOPING && outer_cells.cells[n].slope != NO_SLOPE) {
-            set_viscosity_above(outer_cells.cells[n], here.cell, 0.0);
         }
     }
 }
@@ -238,6 +212,7 @@ struct BlockFace {
 // Number of faces of full block cells in contact with fluid, and number of these where the law acts.
 @group(0) @binding(43) var<storage, read_write> face_counts: array<atomic<u32>, 2>;
 @group(0) @binding(44) var<storage, read_write> found_faces: array<BlockFace>;
+
 // For output: the faces where the law acts, in no particular order.
 @compute @workgroup_size(64)
 fn list_block_faces(
@@ -259,7 +234,7 @@ fn list_block_faces(
     }
     let face = face_of(cell, here);
     if (face == NO_FACE && SLOPING) {
-        let sloping = sloping_face(0u, cell, here);
+        let sloping = sloping_face(cell, here);
         if (sloping.slope != NO_SLOPE) {
             if ((sloping.slope & SLOPE_TOP) != 0u) {
                 atomicAdd(&face_counts[0], 1u);
@@ -286,7 +261,7 @@ fn list_block_faces(
     }
 }
 
-fn list_sloping_face(cell: vec3<u32>, here: Solid, found: SurfaceCell) {
+fn list_sloping_face(cell: vec3<u32>, here: Solid, found: SlopingCell) {
     let n = atomicAdd(&face_counts[1], 1u);
     if (n < arrayLength(&found_faces)) {
         let law = law_at_slope(found, velocity_of_block(here));

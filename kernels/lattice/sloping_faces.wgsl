@@ -2,7 +2,27 @@
 // cells, along the axis nearest to the normal, give the face near each cell at the surface. The law of the wall reads the velocity
 // in the column at least four cells from the face. block_friction_stored.wgsl lets the fluid slide in cells that the face cuts,
 // and sloping_friction.wgsl applies the stress.
-// needs surface_cells, cell_velocities, law_of_the_wall, mixing_length, near_wall_bits, lattice
+// needs surface_cells, cell_velocities, law_of_the_wall, lattice
+
+// A cell at a sloping face.
+struct SlopingCell {
+    // The face x-, x+, ... nearest to the sloping one, SLOPE_TOP if the cell is the uppermost full one of its column, and from the
+    // bit SLOPE_CELLS on the number of cells to the one whose velocity the law reads; or NO_SLOPE.
+    slope: u32,
+    // Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
+    open: u32,
+    // Scalar of the cell whose velocity the law reads, and its distance from the face, cells.
+    sample: u32,
+    distance: f32,
+    normal: vec3<f32>,
+    // Friction velocity, and the tangential velocity that the law has read, relative to the block.
+    friction: f32,
+    u: vec3<f32>,
+}
+
+const NO_SLOPE = 0xffffu;
+const SLOPE_TOP = 8u;
+const SLOPE_CELLS = 4u;
 
 // Largest slope towards the nearest axis, above 1 since normals at equal angles to two axes are rounded.
 const LARGEST_SLOPE = 1.2;
@@ -120,10 +140,9 @@ fn face_towards(direction: vec3<f32>, axis: u32) -> u32 {
     return 2u * axis + select(0u, 1u, direction[axis] > 0.0);
 }
 
-// The data of a cell at the surface of a block, whose number is that of `cell`.
-fn sloping_face(number: u32, cell: vec3<u32>, here: Solid) -> SurfaceCell {
-    var found: SurfaceCell;
-    found.number = number;
+// The sloping face at a cell at the surface of a block.
+fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
+    var found: SlopingCell;
     found.slope = NO_SLOPE;
     if (here.interior || here.several || !may_have_face(cell)) {
         return found;
@@ -181,7 +200,7 @@ fn sloping_face(number: u32, cell: vec3<u32>, here: Solid) -> SurfaceCell {
 }
 
 // Result of the law at a sloping face, with the velocity of the block.
-fn law_at_slope(face: SurfaceCell, velocity: vec3<f32>) -> SurfaceCell {
+fn law_at_slope(face: SlopingCell, velocity: vec3<f32>) -> SlopingCell {
     var found = face;
     let u = vec3(read_velocity(0u, face.sample), read_velocity(1u, face.sample), read_velocity(2u, face.sample)) - velocity;
     found.u = u - dot(u, face.normal) * face.normal;
@@ -195,43 +214,4 @@ fn velocity_of_block(here: Solid) -> vec3<f32> {
         read_psm(PLANE_VELOCITY + 1u, here.slot, here.place),
         read_psm(PLANE_VELOCITY + 2u, here.slot, here.place),
     );
-}
-
-// Applies the law at a sloping face, for the next step: data for the cells that it cuts, and the eddy viscosity of the fluid above.
-fn apply_at_slope(n: u32, here: OuterCell) {
-    if (outer_cells.cells[n].slope == NO_SLOPE) {
-        return;
-    }
-    let face = outer_cells.cells[n];
-    let law = law_at_slope(face, velocity_of_block(here.solid));
-    outer_cells.cells[n].u = law.u;
-    outer_cells.cells[n].friction = law.friction;
-    let share = model_share(law.friction);
-    write_psm(PLANE_SHARE, here.solid.slot, here.solid.place, share);
-    if (here.solid.fraction < FULL) {
-        for (var a = 0u; a < 3u; a++) { // unroll
-            write_psm(PLANE_STRESS + a, here.solid.slot, here.solid.place, law.normal[a]);
-        }
-    }
-    set_viscosity_above(face, here.cell, law.friction * share);
-}
-
-// Sets the eddy viscosity of the fluid above the uppermost full cell of a column: that of the mixing length, or 0.
-fn set_viscosity_above(face: SurfaceCell, cell: vec3<u32>, friction: f32) {
-    if ((face.slope & SLOPE_TOP) == 0u) {
-        return;
-    }
-    let nearest = face.slope & 7u;
-    let cells = face.slope >> SLOPE_CELLS;
-    let rise = abs(face.normal[nearest / 2u]);
-    var at = cell;
-    for (var k = 1u; k <= cells; k++) {
-        at = through(at, nearest, 1u);
-        let y = face.distance - f32(cells - k) * rise;
-        if (friction == 0.0) {
-            atomicStore(&near_wall_viscosity[scalar_of(at)], 0u);
-        } else if (y > 1.0 || (y > 0.0 && fraction_at(at) == 0.0)) {
-            atomicMax(&near_wall_viscosity[scalar_of(at)], bitcast<u32>(KARMAN * y * taper(y) * friction));
-        }
-    }
 }

@@ -2,7 +2,96 @@
 // reflected the populations that arrived. Those that now leave to the fluid get w c.m more, m along the face: the tangential momentum
 // that arrived leaves again, less the stress of the law of the wall times the area of the face in the column of the cell. The
 // surface of the full cells is a staircase; with m, the velocity of the solid along the face crosses its steps.
-// needs surface_cells, incoming, weights, law_of_the_wall
+// needs sloping_faces, near_wall_bits, mixing_length, incoming, weights
+
+// The cells of outer_cells.
+@group(0) @binding(49) var<storage, read_write> slopes: array<SlopingCell>;
+
+// Runs after find_faces, at cells without a grid-aligned face.
+@compute @workgroup_size(64)
+fn find_slopes(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let count = atomicLoad(&outer_cells.count);
+    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
+        let here = outer_cell(n);
+        slopes[n].slope = NO_SLOPE;
+        if (atomicLoad(&face_codes[here.number]) == 0u) {
+            let face = sloping_face(here.cell, here.solid);
+            slopes[n] = face;
+            if (face.slope != NO_SLOPE) {
+                let code = select(SLIDES, FULL_AT_SLOPE, here.solid.fraction >= FULL);
+                atomicStore(&face_codes[here.number], bitcast<u32>(f32(code)));
+            }
+        }
+    }
+}
+
+// Applies the law at these faces, for the next step: data for the cells that they cut, and the eddy viscosity of the fluid above.
+@compute @workgroup_size(64)
+fn slope_law(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let count = atomicLoad(&outer_cells.count);
+    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
+        if (slopes[n].slope != NO_SLOPE) {
+            apply_at_slope(n, outer_cell(n));
+        }
+    }
+}
+
+fn apply_at_slope(n: u32, here: OuterCell) {
+    let law = law_at_slope(slopes[n], velocity_of_block(here.solid));
+    slopes[n].u = law.u;
+    slopes[n].friction = law.friction;
+    let share = model_share(law.friction);
+    write_psm(PLANE_SHARE, here.solid.slot, here.solid.place, share);
+    if (here.solid.fraction < FULL) {
+        for (var a = 0u; a < 3u; a++) { // unroll
+            write_psm(PLANE_STRESS + a, here.solid.slot, here.solid.place, law.normal[a]);
+        }
+    }
+    set_viscosity_above(law, here.cell, law.friction * share);
+}
+
+// Runs at the end of the step, as clear_viscosity does.
+@compute @workgroup_size(64)
+fn clear_above_slopes(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    let count = atomicLoad(&outer_cells.count);
+    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
+        if (slopes[n].slope != NO_SLOPE) {
+            set_viscosity_above(slopes[n], outer_cell(n).cell, 0.0);
+        }
+    }
+}
+
+// Sets the eddy viscosity of the fluid above the uppermost full cell of a column: that of the mixing length, or 0.
+fn set_viscosity_above(face: SlopingCell, cell: vec3<u32>, friction: f32) {
+    if ((face.slope & SLOPE_TOP) == 0u) {
+        return;
+    }
+    let nearest = face.slope & 7u;
+    let cells = face.slope >> SLOPE_CELLS;
+    let rise = abs(face.normal[nearest / 2u]);
+    var at = cell;
+    for (var k = 1u; k <= cells; k++) {
+        at = through(at, nearest, 1u);
+        let y = face.distance - f32(cells - k) * rise;
+        if (friction == 0.0) {
+            atomicStore(&near_wall_viscosity[scalar_of(at)], 0u);
+        } else if (y > 1.0 || (y > 0.0 && fraction_at(at) == 0.0)) {
+            atomicMax(&near_wall_viscosity[scalar_of(at)], bitcast<u32>(KARMAN * y * taper(y) * friction));
+        }
+    }
+}
 
 // Runs after the collision of the bricks that blocks reach; its parity is that of the next step.
 @compute @workgroup_size(64)
@@ -13,17 +102,17 @@ fn sloping_friction(
 ) {
     let count = atomicLoad(&outer_cells.count);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
-        if (outer_cells.cells[n].slope == NO_SLOPE || outer_cells.cells[n].open == 0u) {
+        if (slopes[n].slope == NO_SLOPE || slopes[n].open == 0u) {
             continue;
         }
-        let share = model_share(outer_cells.cells[n].friction);
+        let share = model_share(slopes[n].friction);
         if (share > 0.0) {
-            apply_sloping_friction(outer_cells.cells[n], outer_cell(n), share);
+            apply_sloping_friction(slopes[n], outer_cell(n), share);
         }
     }
 }
 
-fn apply_sloping_friction(face: SurfaceCell, here: OuterCell, share: f32) {
+fn apply_sloping_friction(face: SlopingCell, here: OuterCell, share: f32) {
     let around = neighbourhood(here.cell);
     // Momentum of the populations that leave to the fluid, and the sum of w c c.
     var leaving = vec3(0.0);
@@ -39,11 +128,7 @@ fn apply_sloping_friction(face: SurfaceCell, here: OuterCell, share: f32) {
     }
     let weights = mat3x3(columns[0], columns[1], columns[2]);
     // Relative to the block.
-    var velocity: vec3<f32>;
-    for (var a = 0u; a < 3u; a++) { // unroll
-        velocity[a] = read_psm(PLANE_VELOCITY + a, here.solid.slot, here.solid.place);
-    }
-    leaving -= 3.0 * (weights * velocity);
+    leaving -= 3.0 * (weights * velocity_of_block(here.solid));
     let speed = length(face.u);
     let is_top = (face.slope & SLOPE_TOP) != 0u;
     let area = select(0.0, 1.0 / abs(face.normal[(face.slope & 7u) / 2u]), is_top);

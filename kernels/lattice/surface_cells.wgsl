@@ -6,28 +6,10 @@
 // grid-aligned face x-, x+, y-, y+, z-, z+ where the law acts, see CUT for a cell that such a face cuts, SLIDES, FULL_AT_SLOPE, 0 elsewhere.
 @group(0) @binding(39) var<storage, read_write> face_codes: array<atomic<u32>>;
 
-// A cell at the surface of a block.
-struct SurfaceCell {
-    // Its number in these bricks: number_of.
-    number: u32,
-    // The other data are of cells at sloping faces: see sloping_faces.wgsl. The face x-, x+, ... nearest to the sloping one,
-    // SLOPE_TOP if the cell is the uppermost full one of its column, and from the bit SLOPE_CELLS on the number of cells to the one
-    // whose velocity the law reads; or NO_SLOPE.
-    slope: u32,
-    // Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
-    open: u32,
-    // Scalar of that cell, and its distance from the face, cells.
-    sample: u32,
-    normal: vec3<f32>,
-    distance: f32,
-    // The tangential velocity that the law has read, relative to the block, and its friction velocity.
-    u: vec3<f32>,
-    friction: f32,
-}
-
+// Cells at the surfaces of blocks, by their number in these bricks (number_of).
 struct OuterCells {
     count: atomic<u32>,
-    cells: array<SurfaceCell>,
+    cells: array<u32>,
 }
 
 @group(0) @binding(47) var<storage, read_write> outer_cells: OuterCells;
@@ -35,9 +17,6 @@ struct OuterCells {
 // Solid fraction from which a cell is full.
 const FULL = 0.999;
 const NO_FACE = 6u;
-const NO_SLOPE = 0xffffu;
-const SLOPE_TOP = 8u;
-const SLOPE_CELLS = 4u;
 // The codes of a cell that a sloping face cuts, and of a full cell at one.
 const SLIDES = 13u;
 const FULL_AT_SLOPE = 14u;
@@ -94,7 +73,7 @@ struct OuterCell {
 }
 
 fn outer_cell(n: u32) -> OuterCell {
-    let number = outer_cells.cells[n].number;
+    let number = outer_cells.cells[n];
     let of_brick = BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT;
     let slot = number / of_brick;
     let place = number % of_brick;

@@ -53,29 +53,29 @@ pub(super) struct BlockPasses {
     /// Friction of sloping faces, after the collision in even and odd steps.
     pub sloping: [Option<Dispatch>; 2],
     /// Removal of the eddy viscosity at the end of a step.
-    pub end: Option<Dispatch>,
-    /// List of the cells that may be under such a face.
-    pub outer_cells: Option<wgpu::Buffer>,
+    pub end: Vec<Dispatch>,
+    /// List of the cells that may be under such a face, and the sloping faces there.
+    pub lists: Vec<wgpu::Buffer>,
 }
 
-/// Bytes of a cell in the list of those at the surfaces of blocks.
-const SURFACE_CELL: u64 = 48;
+/// Bytes of a cell at a sloping face.
+const SLOPING_CELL: u64 = 48;
 
-/// Room for a list of so many cells.
-fn outer_cells(device: &wgpu::Device, cells: u32) -> Result<wgpu::Buffer> {
+/// Room for the sloping faces at so many cells.
+fn slopes(device: &wgpu::Device, cells: u32) -> Result<wgpu::Buffer> {
     let (wants, has) = (
-        16 + SURFACE_CELL * u64::from(cells),
+        SLOPING_CELL * u64::from(cells.max(1)),
         largest_binding(&device.limits()),
     );
     if wants > has {
         return Err(Error::Limit {
-            name: "bytes of one storage binding (cells at blocks)".into(),
+            name: "bytes of one storage binding (sloping faces of blocks)".into(),
             wants,
             has,
-            remedy: "use a larger cell, no wall model, or another adapter".into(),
+            remedy: "use a larger cell, no sloping faces, or another adapter".into(),
         });
     }
-    Ok(zeroed(device, "outer cells of blocks", wants))
+    Ok(zeroed(device, "sloping faces of blocks", wants))
 }
 
 impl Lattice {
@@ -119,7 +119,7 @@ impl Lattice {
         };
         let of_model = self.bricks_of_model().zip(self.streams.face_codes());
         if let Some(((list, cells), codes)) = of_model {
-            let outer = outer_cells(device, cells)?;
+            let outer = zeroed(device, "outer cells of blocks", 4 + 4 * u64::from(cells));
             let buffers = [("face_codes", codes), ("outer_cells", &outer)];
             let pass = |entry, odd, invocations| {
                 let kernel = ("block_friction", entry);
@@ -134,16 +134,26 @@ impl Lattice {
             for (odd, friction) in (0..).zip(&mut passes.friction) {
                 friction.push(pass("block_friction", odd, listed)?);
             }
+            passes.end.push(pass("clear_viscosity", 0, listed)?);
             if self.setup.has_sloping_friction() {
-                passes.faces.push(pass("find_slopes", 0, listed)?);
-                let kernel = ("sloping_friction", "sloping_friction");
-                for (next, friction) in [1, 0].into_iter().zip(&mut passes.sloping) {
-                    let cells = (list, listed);
-                    *friction = Some(self.pass_of_model(device, kernel, next, cells, &buffers)?);
+                let slopes = slopes(device, cells)?;
+                let [codes, outer] = buffers;
+                let buffers = [codes, outer, ("slopes", &slopes)];
+                let pass = |entry, odd| {
+                    let kernel = ("sloping_friction", entry);
+                    self.pass_of_model(device, kernel, odd, (list, listed), &buffers)
+                };
+                passes.faces.push(pass("find_slopes", 0)?);
+                for (odd, friction) in (0..).zip(&mut passes.friction) {
+                    friction.push(pass("slope_law", odd)?);
                 }
+                for (next, friction) in [1, 0].into_iter().zip(&mut passes.sloping) {
+                    *friction = Some(pass("sloping_friction", next)?);
+                }
+                passes.end.push(pass("clear_above_slopes", 0)?);
+                passes.lists.push(slopes);
             }
-            passes.end = Some(pass("clear_viscosity", 0, listed)?);
-            passes.outer_cells = Some(outer);
+            passes.lists.push(outer);
         }
         Ok(passes)
     }

@@ -51,7 +51,12 @@ impl Lattice {
                 "wall model",
                 buffers.walls.iter().map(WallPart::bytes).sum::<u64>()
                     + size(&buffers.near_wall_viscosity)
-                    + size(&self.of_blocks.outer_cells)
+                    + self
+                        .of_blocks
+                        .lists
+                        .iter()
+                        .map(wgpu::Buffer::size)
+                        .sum::<u64>()
                     + size(&buffers.psm_slots),
             ),
             (

@@ -185,7 +185,7 @@ impl Lattice {
     /// place and every population has one owner a step, so that the bits do not depend on this split.
     pub fn record_rest(&mut self, pass: &mut wgpu::ComputePass<'_>) {
         self.streams.record(pass, self.parity(), false);
-        if let Some(dispatch) = &self.of_blocks.end {
+        for dispatch in &self.of_blocks.end {
             dispatch.record(pass);
         }
         self.step += 1;

@@ -231,11 +231,11 @@ impl Output<'_> {
         constants.retain(|(name, _)| *name != "SLOPING");
         constants.push(("SLOPING", 1.0));
         for (file, entry) in [
-            ("block_friction", "find_slopes"),
-            ("block_friction", "block_friction"),
-            ("block_friction", "clear_viscosity"),
             ("block_friction", "list_block_faces"),
+            ("sloping_friction", "find_slopes"),
+            ("sloping_friction", "slope_law"),
             ("sloping_friction", "sloping_friction"),
+            ("sloping_friction", "clear_above_slopes"),
         ] {
             let program = single_cells(setup, 1, file);
             self.put(&format!("{entry}_sloping"), &program, entry, &constants)?;

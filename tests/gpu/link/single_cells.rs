@@ -47,7 +47,6 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
             "forget_outer_cells",
             "list_outer_cells",
             "find_faces",
-            "find_slopes",
             "block_friction",
             "clear_viscosity",
             "list_block_faces",
@@ -66,8 +65,23 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "sloping_friction",
-        &["sloping_friction"],
-        &["bricks", "outer_cells", "psm_planes_0", "cell_pass"],
+        &[
+            "find_slopes",
+            "slope_law",
+            "sloping_friction",
+            "clear_above_slopes",
+        ],
+        &[
+            "bricks",
+            "face_codes",
+            "outer_cells",
+            "slopes",
+            "psm_slots",
+            "psm_planes_0",
+            "near_wall_viscosity",
+            "velocity_before_0",
+            "cell_pass",
+        ],
     ),
     (
         "pressure_face",

@@ -44,9 +44,15 @@ fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<functio
     return select(Real(0.0), share, (acts & (code < Real(6.5))) | slopes);
 }
 
+// Whether the law acts on sloping faces.
+override SLOPING: bool;
+
 // The velocity of the solid for the change of a cell. A solid whose face slopes has the tangential velocity of the fluid, so that
 // the momentum changes along the normal alone.
 fn sliding_velocity(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>) -> Vector {
+    if (!SLOPING) {
+        return v;
+    }
     let code = unpack_reals(face_codes[slot * WORKGROUP + local]);
     let slides = (code > Real(12.5)) & (code < Real(13.5));
     if (!mask_any(slides)) {

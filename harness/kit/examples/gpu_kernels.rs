@@ -111,6 +111,11 @@ impl Output<'_> {
                     setup.solid_operator = Some(SolidOperator::Holdych);
                     let name = format!("{stored}{eddy}_psm_wall_model");
                     self.step(&name, BrickKind::Psm, &setup)?;
+                    if storage == Storage::F32 {
+                        setup.sloping_faces = true;
+                        let name = format!("{stored}{eddy}_psm_sloping_faces");
+                        self.step(&name, BrickKind::Psm, &setup)?;
+                    }
                 }
                 let mut at_rest = setup.clone();
                 at_rest.surface = vec![SurfaceCell {

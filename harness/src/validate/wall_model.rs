@@ -1,7 +1,7 @@
 //! Wall model: a law of the wall gives the friction of walls whose near-wall layer the grid does not resolve.
 
 use super::{
-    CaseContext, Outcome, Record, fields,
+    CaseContext, Outcome, Record, Trial, fields,
     tank::{self, Tank, block, numbers},
 };
 use riprap::{
@@ -187,13 +187,13 @@ impl Plates {
         if !self.model {
             place += ", no model";
         }
-        let found = mean / stress.max(0.0).sqrt();
-        let limit = self.model.then_some(PLATES_LIMIT);
-        let part = stress / (mean / expected).powi(2);
-        Ok([
-            trial.relative(format!("U_b⁺, {place}"), found, expected, limit),
-            trial.report(format!("friction / published, {place}"), part),
-        ])
+        Ok(judge_friction(
+            &trial,
+            &place,
+            self.model,
+            [mean, stress],
+            expected,
+        ))
     }
 
     /// A plate in a periodic box, its middle at the height `offset`. The flow begins with the log law and rolls across the
@@ -237,6 +237,23 @@ impl Plates {
         scene.blocks.push(plate);
         Ok(scene)
     }
+}
+
+/// U_b⁺ and the friction of blocks, by the mean velocity of the water and its stress over the density.
+fn judge_friction(
+    trial: &Trial,
+    place: &str,
+    model: bool,
+    [mean, stress]: [f64; 2],
+    expected: f64,
+) -> [Record; 2] {
+    let found = mean / stress.max(0.0).sqrt();
+    let limit = model.then_some(PLATES_LIMIT);
+    let part = stress / (mean / expected).powi(2);
+    [
+        trial.relative(format!("U_b⁺, {place}"), found, expected, limit),
+        trial.report(format!("friction / published, {place}"), part),
+    ]
 }
 
 /// Friction of rods whose faces lie along the grid and at an angle to it, and without the model.
@@ -287,13 +304,13 @@ impl Rods {
         if !self.model {
             place += ", no model";
         }
-        let found = mean / stress.max(0.0).sqrt();
-        let limit = self.model.then_some(PLATES_LIMIT);
-        let part = stress / (mean / expected).powi(2);
-        Ok([
-            trial.relative(format!("U_b⁺, {place}"), found, expected, limit),
-            trial.report(format!("friction / published, {place}"), part),
-        ])
+        Ok(judge_friction(
+            &trial,
+            &place,
+            self.model,
+            [mean, stress],
+            expected,
+        ))
     }
 
     /// The flow begins with the log law around a round rod of the same perimeter, and vortices that break up.

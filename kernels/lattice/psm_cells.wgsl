@@ -9,9 +9,9 @@
 override JOINT_WEIGHT: f32;
 // The same in joints with two rows of cells; with a prescribed aperture these let through as much as joints with one row.
 override FACING_WEIGHT: f32;
-// As a joint opens, its cells become ordinary ones. While both faces are in one cell, B is at least this value, since the weight
-// of a cell without friction is zero.
-const SHARED_WEIGHT = 0.25;
+// As a joint opens, its cells become ordinary ones. While both faces are in one cell, and in nearly full cells, B is at least this
+// value, since the weight of a cell without friction is zero.
+const LEAST_WEIGHT = 0.25;
 // The same for all other moments. Full cells reflect the populations that leave a joint, after two steps, and the loads reach
 // blocks late: without damping here, oscillations with a period of four steps grow between blocks of few cells.
 const JOINT_DAMPING = 0.0625;
@@ -90,11 +90,11 @@ fn collide_with_solid(
         lost = lost_to_wall(face, here, h, lost);
     }
     let joint = select(Real(0.0), closure, psm.joint | at_wall);
-    // Reaches 1 in a cell that is half full.
-    let in_one = select(Real(0.0), min(2.0 * e, Real(1.0)), psm.several);
-    let momentum = max(open, in_one * SHARED_WEIGHT);
+    // Part of the least B. With several blocks it reaches 1 in a cell that is half full.
+    let least = max(closure, select(Real(0.0), min(2.0 * e, Real(1.0)), psm.several));
+    let momentum = max(open, least * LEAST_WEIGHT);
     let closed = select(Real(JOINT_WEIGHT), Real(FACING_WEIGHT), psm.facing & !at_wall);
-    let others = max(open, in_one * JOINT_DAMPING);
+    let others = max(open, least * JOINT_DAMPING);
     let without_law = select(momentum + joint * (closed - momentum), Real(1.0), psm.interior);
     let higher_without_law = select(others + joint * (JOINT_DAMPING - others), Real(1.0), psm.interior);
     let v = psm.velocity;

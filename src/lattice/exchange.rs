@@ -128,7 +128,7 @@ impl Lattice {
             return wrong("the saved state has no velocity, which the eddy viscosity needs".into());
         }
         if self.kept_viscosity(state.step).is_some() && state.eddy_viscosity.len() != cells {
-            let message = "the saved state has no eddy viscosity, which an odd step needs; continue with `wale_interval` 1";
+            let message = "the saved state has no eddy viscosity, which an odd step needs; continue with `numerics.wale_interval` = 1";
             return wrong(message.into());
         }
         if state.outflow_state.len() != 27 * self.geometry.outflow.len() {

@@ -50,6 +50,27 @@ fn plates_on_both_sides_of_a_thin_gap_come_to_rest() {
     assert!(speed < 1e-3, "{speed}");
 }
 
+/// Nearly full cells of one plate are next to cells of the other one. Without a least B there, plates of 0.2 m at 1:2 would
+/// accelerate the water between them to the speed of sound within 850 steps.
+#[test]
+fn plates_at_an_angle_to_the_grid_come_to_rest() {
+    for (gap, thickness, angle) in [(0.02, 0.2, 26.6_f64), (0.025, 0.15, 10.0)] {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let plate = |side: f64| {
+            let [y, z] = [cos, sin].map(|n| 0.5 * side * (thickness + gap) * n);
+            let [vy, vz] = [cos, sin].map(|n| 0.02 * side * n);
+            let size = [0.6, thickness, 0.6];
+            block(size, [0.5, 0.525 + y, 0.5 + z], [0.0, vy, vz])
+                + &format!("rotation = {{ axis = [1, 0, 0], angle = {angle} }}\n")
+        };
+        let mut world = water([1.0; 3], 0.0, &(plate(-1.0) + &plate(1.0)));
+        world.advance(1500);
+        let speed = fastest(&world, 2);
+        println!("{speed} m/s");
+        assert!(speed < 1e-3, "{speed}");
+    }
+}
+
 /// Speed of the fastest of nine cubes of four cells on a floor, each with another initial velocity, m/s. The side of the first
 /// lies at `side` (m).
 fn jointed_slab(side: f64, coupling: &str) -> f64 {

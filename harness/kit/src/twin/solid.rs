@@ -45,9 +45,9 @@ pub struct Solid {
     pub facing: bool,
 }
 
-/// Lower bound of B of the momentum in a cell that several blocks share.
-const SHARED: f64 = 0.25;
-/// B of all moments except mass and momentum in a cell of a closed joint, and their lower bound in a cell that blocks share.
+/// Lower bound of B of the momentum in a cell that several blocks share, and in a full cell.
+const LEAST: f64 = 0.25;
+/// B of all moments except mass and momentum in a cell of a closed joint, and their lower bound in these cells.
 pub(super) const DAMPS: f64 = 1.0 / 16.0;
 
 /// Tightness of a cell with the solid `share`: 1 for a closed joint, up to 0.002 of a cell wide, 0 from a tenth of a cell on.
@@ -62,12 +62,12 @@ impl Solid {
     }
 
     /// B of the momentum at the relaxation time `tau`: 1 deep inside, that of the configuration in closed joints, and at least a
-    /// quarter in a cell that several blocks fill by half. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that of
+    /// quarter in a cell that several blocks fill by half or that is almost full. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that of
     /// docs/src/theory/solids.md.
     pub fn weight(&self, config: &Config, tau: f64) -> f64 {
         let [one, two] = config.joint_weights;
         let closed = if self.facing { two } else { one };
-        self.in_joint(config, tau, [SHARED, closed])
+        self.in_joint(config, tau, [LEAST, closed])
     }
 
     /// The same for all moments except mass and momentum.
@@ -75,15 +75,16 @@ impl Solid {
         self.in_joint(config, tau, [DAMPS; 2])
     }
 
-    fn in_joint(&self, config: &Config, tau: f64, [shared, closed]: [f64; 2]) -> f64 {
+    fn in_joint(&self, config: &Config, tau: f64, [least, closed]: [f64; 2]) -> f64 {
         if self.deep {
             return 1.0;
         }
-        let least = if self.shared {
-            (2.0 * self.fraction).min(1.0) * shared
+        let shared = if self.shared {
+            (2.0 * self.fraction).min(1.0)
         } else {
             0.0
         };
+        let least = shared.max(tightness(self.fraction)) * least;
         (1.0 - self.tight) * self.open_weight(config, tau).max(least) + self.tight * closed
     }
 

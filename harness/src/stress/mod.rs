@@ -3,6 +3,7 @@
 //! A map is a function that runs one cell after the other and hands each to a [`Sink`], which writes it to disk before the next
 //! begins. The short form has coarse axes and short runs, and says so; `--full` runs everything.
 
+mod bed;
 mod cell;
 mod density;
 mod long;
@@ -118,6 +119,7 @@ pub const MAPS: &[Map] = &[
     density::MAP,
     stiffness::MAP,
     packed::MAP,
+    bed::MAP,
     places::MAP,
     long::MAP,
     restarts::MAP,

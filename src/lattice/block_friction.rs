@@ -198,3 +198,28 @@ impl Lattice {
         Ok(BlockFaces { faces, area })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        gpu::layout::check,
+        lattice::{Setup, single_cells},
+    };
+
+    #[test]
+    fn the_room_for_sloping_faces_is_that_of_the_kernel() {
+        let program = single_cells(&Setup::periodic([4; 3], 0.1), 1, "sloping_friction");
+        let fields = [
+            ("slope", 0),
+            ("open", 4),
+            ("sample", 8),
+            ("distance", 12),
+            ("normal", 16),
+            ("friction", 28),
+            ("u", 32),
+        ];
+        let module = program.link().unwrap().module;
+        check::<[u8; SLOPING_CELL as usize]>(&module, "SlopingCell", &fields).unwrap();
+    }
+}

@@ -51,7 +51,7 @@ fn plates_on_both_sides_of_a_thin_gap_come_to_rest() {
 }
 
 /// Nearly full cells of one plate are next to cells of the other one. Without a least B there, plates of 0.2 m at 1:2 would
-/// accelerate the water between them to the speed of sound within 850 steps.
+/// accelerate the water between them beyond Mach 0.7 within 850 steps.
 #[test]
 fn plates_at_an_angle_to_the_grid_come_to_rest() {
     for (gap, thickness, angle) in [(0.02, 0.2, 26.6_f64), (0.025, 0.15, 10.0)] {

@@ -45,7 +45,7 @@ pub struct Solid {
     pub facing: bool,
 }
 
-/// Lower bound of B of the momentum in a cell that several blocks share, and in a full cell.
+/// Lower bound of B of the momentum in a cell that several blocks share, and in a nearly full cell.
 const LEAST: f64 = 0.25;
 /// B of all moments except mass and momentum in a cell of a closed joint, and their lower bound in these cells.
 pub(super) const DAMPS: f64 = 1.0 / 16.0;
@@ -62,8 +62,8 @@ impl Solid {
     }
 
     /// B of the momentum at the relaxation time `tau`: 1 deep inside, that of the configuration in closed joints, and at least a
-    /// quarter in a cell that several blocks fill by half or that is almost full. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that of
-    /// docs/src/theory/solids.md.
+    /// quarter in a cell that several blocks fill by half or that is almost full. Elsewhere ε (τ − ½) / ((1 − ε) + (τ − ½)), or that
+    /// of docs/src/theory/solids.md.
     pub fn weight(&self, config: &Config, tau: f64) -> f64 {
         let [one, two] = config.joint_weights;
         let closed = if self.facing { two } else { one };

@@ -176,9 +176,7 @@ impl Plates {
             let solid = length * PLATE * width * self.velocity;
             bulk.push((tank.totals()?.momentum[0] - solid) / open - self.velocity);
         }
-        let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
-        let stress = PLATES_H * (force - change);
-        let mean = bulk.iter().sum::<f64>() / bulk.len() as f64;
+        let means = mean_and_stress(&bulk, each, PLATES_H, force);
         let trial = tank.trial("plates that are blocks");
         let mut place = format!("surfaces {} off the grid", self.offset);
         if self.velocity != 0.0 {
@@ -187,13 +185,7 @@ impl Plates {
         if !self.model {
             place += ", no model";
         }
-        Ok(judge_friction(
-            &trial,
-            &place,
-            self.model,
-            [mean, stress],
-            expected,
-        ))
+        Ok(judge_friction(&trial, &place, self.model, means, expected))
     }
 
     /// A plate in a periodic box, its middle at the height `offset`. The flow begins with the log law and rolls across the
@@ -237,6 +229,14 @@ impl Plates {
         scene.blocks.push(plate);
         Ok(scene)
     }
+}
+
+/// Mean velocity of samples `each` steps apart, and the mean stress over the density: the fluid loses to the walls what the force
+/// per mass adds and it does not keep. `h`: cross-section over its perimeter.
+fn mean_and_stress(bulk: &[f64], each: u64, h: f64, force: f64) -> [f64; 2] {
+    let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
+    let mean = bulk.iter().sum::<f64>() / bulk.len() as f64;
+    [mean, h * (force - change)]
 }
 
 /// U_b⁺ and the friction of blocks, by the mean velocity of the water and its stress over the density.
@@ -296,21 +296,13 @@ impl Rods {
             tank.advance(each)?;
             bulk.push(tank.totals()?.momentum[2] / (area * f64::from(RODS[2])));
         }
-        let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
-        let stress = h * (force - change);
-        let mean = bulk.iter().sum::<f64>() / bulk.len() as f64;
+        let means = mean_and_stress(&bulk, each, h, force);
         let trial = tank.trial("square rods that are blocks");
         let mut place = format!("at {:.1}° to the grid", self.angle);
         if !self.model {
             place += ", no model";
         }
-        Ok(judge_friction(
-            &trial,
-            &place,
-            self.model,
-            [mean, stress],
-            expected,
-        ))
+        Ok(judge_friction(&trial, &place, self.model, means, expected))
     }
 
     /// The flow begins with the log law around a round rod of the same perimeter, and vortices that break up.
@@ -445,9 +437,7 @@ impl Channel {
                 reported += sum / walls.len() as f64 / (SAMPLES + 1) as f64;
             }
         }
-        // The fluid loses to the walls what the force adds and it does not keep.
-        let change = (bulk[bulk.len() - 1] - bulk[0]) / (SAMPLES * each) as f64;
-        let stress = h * (force - change);
+        let [bulk, stress] = mean_and_stress(&bulk, each, h, force);
         let cells = (SAMPLES + 1) as f64 * (length * rows) as f64;
         let mean = |y: usize| {
             let both = match self.closed {
@@ -458,7 +448,7 @@ impl Channel {
         };
         let increases = (1..self.depth as usize).map(|y| mean(y) - mean(y - 1));
         Ok(Means {
-            bulk: bulk.iter().sum::<f64>() / bulk.len() as f64 / stress.sqrt(),
+            bulk: bulk / stress.sqrt(),
             reported: reported / stress,
             first: mean(0),
             least_increase: increases.fold(f64::INFINITY, f64::min),

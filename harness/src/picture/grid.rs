@@ -138,14 +138,9 @@ impl ColourGrid {
             let at = [x - 6.0, y + 0.5 * SQUARE[1]];
             canvas.text(name, at, TEXT, Anchor::Right, INK)?;
         }
-        let below = place(0, count[1])[1] + 2.1 * TEXT;
-        canvas.text(
-            &self.x,
-            [corner[0] + middle, below],
-            TEXT,
-            Anchor::Centre,
-            INK,
-        )?;
+        let below = [corner[0] + middle, place(0, count[1])[1] + 2.1 * TEXT];
+        let size = fitting(&self.x, TEXT, 2.0 * (middle + MARGIN))?;
+        canvas.text(&self.x, below, size, Anchor::Centre, INK)?;
         let beside = corner[0] - self.widest_row()? - 12.0 - 0.5 * TEXT;
         let along = count[1] as f64 * SQUARE[1];
         let size = fitting(&self.y, TEXT, along)?;

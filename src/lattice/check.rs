@@ -137,11 +137,10 @@ impl Setup {
                            SolidWeight::Standard";
             return Err(Error::argument("solid_weight", message));
         }
-        if !(0.0..2.0).contains(&self.odd_rate_floor) {
-            let message = format!(
-                "is {}; a rate lies from 0 to below 2, such as 0.8",
-                self.odd_rate_floor
-            );
+        if let Some(floor) = self.odd_rate_floor
+            && !(0.0..2.0).contains(&floor)
+        {
+            let message = format!("is {floor}; a rate lies from 0 to below 2, such as 0.8");
             return Err(Error::argument("odd_rate_floor", message));
         }
         if let Some(constant) = self.wale

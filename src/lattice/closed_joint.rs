@@ -100,7 +100,7 @@ impl Setup {
         let third = match (self.collision, self.lambda, self.solid_lambda) {
             (Collision::Bgk, ..) => rate,
             (_, Some(lambda), _) => self.odd_rate(lambda),
-            (.., Some(lambda)) => self.odd_rate(lambda).max(self.odd_rate_floor),
+            (.., Some(lambda)) => self.odd_rate(lambda).max(self.odd_rate_floors()[1]),
             _ => self.rates.s10,
         };
         let (momentum, of_shear, of_third) = match self.solid_operator {

@@ -53,7 +53,7 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         refused("faces.y_min", &closed(Face::Outflow { density }));
     }
     for bad in [NAN, -1.0, 2.0] {
-        refused("odd_rate_floor", &|s| s.odd_rate_floor = bad);
+        refused("odd_rate_floor", &|s| s.odd_rate_floor = Some(bad));
     }
     for bad in [NAN, -1.0, f64::INFINITY] {
         refused("wale", &|s| s.wale = Some(bad));

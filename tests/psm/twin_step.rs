@@ -165,8 +165,19 @@ fn weights_at_any_viscosity() {
 #[test]
 fn odd_rates_beside_blocks_have_a_floor_and_one_magic_rate_has_none() {
     let mut setup = box_of(0.004, SolidOperator::Holdych);
-    assert!(setup.odd_rate(0.1) < 0.5 * setup.odd_rate_floor);
-    assert_equal_to_twin("floored", &setup);
+    for (nu, wall, solid) in [
+        (0.004, 1.12, 0.96),
+        (1e-6, 1.59988, 1.19994),
+        (0.02, 0.8, 0.8),
+    ] {
+        setup.nu = nu;
+        let floors = setup.odd_rate_floors();
+        assert!((floors[0] - wall).abs() < 1e-12 && (floors[1] - solid).abs() < 1e-12);
+        assert!(setup.odd_rate(0.1) < 0.95 * solid);
+        assert_equal_to_twin("default floors", &setup);
+    }
+    setup.odd_rate_floor = Some(0.7);
+    assert_equal_to_twin("given floor", &setup);
     setup.lambda = Some(0.02);
     assert_equal_to_twin("one rate", &setup);
 }

@@ -17,7 +17,7 @@ fn a_minimal_scene_has_the_documented_defaults() {
     assert_eq!(scene.numerics.collision, Collision::Hermite);
     assert_eq!(scene.numerics.equilibrium, Equilibrium::Product);
     assert_eq!(scene.numerics.wall_lambda, 0.1875);
-    assert_eq!(scene.numerics.odd_rate_floor, 0.8);
+    assert_eq!(scene.numerics.odd_rate_floor, None);
     assert!(
         scene
             .boundaries

@@ -129,8 +129,10 @@ pub struct Numerics {
     pub lambda: Option<f64>,
     /// Magic parameter of the odd moments at walls.
     pub wall_lambda: Option<f64>,
-    /// Smallest relaxation rate of the odd moments at walls.
-    pub odd_rate_floor: f64,
+    /// Smallest relaxation rates of the odd moments next to walls and next to solids.
+    pub odd_rate_floors: [f64; 2],
+    /// Magic parameter of the odd moments next to blocks and exact terrain, if there are any.
+    pub solid_lambda: Option<f64>,
 }
 
 /// Running time without output.
@@ -274,7 +276,8 @@ impl Numerics {
             cell_reynolds: speed.map(|speed| speed * units.cell / scene.fluid.viscosity),
             lambda: setup.lambda,
             wall_lambda: setup.wall_lambda,
-            odd_rate_floor: setup.odd_rate_floor,
+            odd_rate_floors: setup.odd_rate_floors(),
+            solid_lambda: setup.solid_lambda.filter(|_| setup.operator().is_some()),
         })
     }
 }
@@ -393,14 +396,15 @@ impl Report {
             ),
             _ => lines.add("speed", "nothing moves at the start"),
         }
-        let magic = match (n.lambda, n.wall_lambda) {
+        let [wall, solid] = n.odd_rate_floors;
+        let mut magic = match (n.lambda, n.wall_lambda) {
             (Some(lambda), _) => format!("{lambda} everywhere, no floor"),
-            (None, Some(lambda)) => format!(
-                "{lambda} beside walls, odd rates at least {}",
-                n.odd_rate_floor
-            ),
+            (None, Some(lambda)) => format!("{lambda} next to walls, odd rates at least {wall:.3}"),
             (None, None) => "as the collision operator has it".into(),
         };
+        if let (None, Some(lambda)) = (n.lambda, n.solid_lambda) {
+            magic += &format!("; {lambda} next to solids, odd rates at least {solid:.3}");
+        }
         lines.add("Λ", magic);
     }
 }

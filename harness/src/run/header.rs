@@ -86,12 +86,15 @@ fn print_lattice(run: &SceneRun, summary: &Summary, lattice: &Lattice, units: &U
         units.time_step,
         setup.tau()
     );
+    let [wall, solid] = setup.odd_rate_floors();
     let odd = match (setup.lambda, setup.wall_lambda) {
         (Some(lambda), _) => format!("Λ = {lambda} everywhere"),
-        (None, Some(lambda)) => format!(
-            "Λ = {lambda} beside walls, odd rates there at least {}",
-            setup.odd_rate_floor
+        (None, Some(lambda)) if setup.operator().is_some() => format!(
+            "Λ = {lambda} next to walls, odd rates at least {wall:.3}, next to solids {solid:.3}"
         ),
+        (None, Some(lambda)) => {
+            format!("Λ = {lambda} next to walls, odd rates there at least {wall:.3}")
+        }
         (None, None) => "published odd rates everywhere".into(),
     };
     eprintln!(

@@ -113,7 +113,7 @@ struct Joint {
 impl Joint {
     fn measure(&self, context: &CaseContext) -> Outcome {
         let slot = self.slot();
-        let length = f64::from(self.length - self.width) - 0.5;
+        let length = f64::from(self.length - self.inside()) - 0.5;
         let (found, trial) = self.sine(context)?;
         let exact = slot.transfer(Complex::new(0.0, TAU / self.period), length);
         let delay = |ratio: Complex<f64>| -ratio.arg() / TAU;
@@ -133,6 +133,11 @@ impl Joint {
             judge("delay / period", delay(found), delay(exact)),
             judge("steps to half of a step", middle, should),
         ])
+    }
+
+    /// Cells from a mouth to where the pressure counts as that at the mouth: at the mouth itself the flow is not that of a slot.
+    fn inside(&self) -> u32 {
+        self.width.max(1)
     }
 
     fn name(&self) -> String {
@@ -208,8 +213,7 @@ impl Joint {
         Tank::fill(context, &scene)
     }
 
-    /// Mean pressures across the joint every `every` steps: in the middle, and inside a mouth by the width of the joint, because
-    /// at the mouth itself the flow is not that of a slot.
+    /// Mean pressures across the joint every `every` steps: inside a mouth and in the middle.
     fn sample(&self, tank: &mut Tank<'_>, every: u64, times: u64) -> anyhow::Result<Vec<[f64; 2]>> {
         let [nx, ny, _] = tank.lattice().grid().cells;
         let row = match self.bed {
@@ -219,7 +223,7 @@ impl Joint {
         let place = |x: u32, z: u32| x + nx * ny * z;
         let rows = self.width.max(1);
         let across = |x: u32| (row..row + rows).map(move |z| place(x, z));
-        let near_mouth = across(BASIN + self.width);
+        let near_mouth = across(BASIN + self.inside());
         let cells: Vec<u32> = near_mouth.chain(across(BASIN + self.length)).collect();
         let mut found = Vec::new();
         for _ in 0..times {

@@ -69,7 +69,6 @@ fn poiseuille_is_exact_with_lambda_three_sixteenths_at_any_tau() {
     for tau in [0.6, 1.0, 2.0] {
         let exact = Config {
             lambda_everywhere: Some(3.0 / 16.0),
-            floor: 0.0,
             ..Config::new(tau)
         };
         for offset in poiseuille_offset(exact) {
@@ -88,7 +87,7 @@ fn lambda_away_from_the_wall_decides_the_slip_of_the_interior() {
     for lambda_wall in [3.0 / 16.0, 1.0] {
         let config = Config {
             lambda_wall,
-            floor: 0.0,
+            floors: [0.0; 2],
             rates: Rates {
                 s10: s_odd,
                 s13: s_odd,

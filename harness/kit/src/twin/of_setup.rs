@@ -51,11 +51,9 @@ pub fn twin_of(setup: &Setup) -> Twin {
     config.c_w = setup.wale;
     config.wale_interval = setup.wale_interval.into();
     config.lambda_everywhere = setup.lambda;
-    config.floor = if setup.lambda.is_some() {
-        0.0
-    } else {
-        setup.odd_rate_floor
-    };
+    if let Some(floor) = setup.odd_rate_floor {
+        config.floors = [floor; 2];
+    }
     if let Some(lambda) = setup.wall_lambda {
         config.lambda_wall = lambda;
     }

@@ -105,8 +105,8 @@ pub struct Config {
     pub lambda_solid: Option<f64>,
     /// Λ of every cell, `Hermite` only, instead of the constants and of the two above.
     pub lambda_everywhere: Option<f64>,
-    /// Lower bound of the odd rate from a Λ.
-    pub floor: f64,
+    /// Lower bounds of the odd rates from a Λ: next to walls, and in cells with a block and next to them.
+    pub floors: [f64; 2],
     /// Weight of the solid in cells that blocks fill partially.
     pub solid_weight: SolidWeight,
     /// B of the momentum in closed joints of one row of cells and of two.
@@ -119,7 +119,7 @@ pub struct Config {
 
 impl Config {
     /// The library's defaults: `Hermite`, product equilibrium, Λ = 3/16 next to walls and 1/10 in and next to blocks, but no
-    /// odd rate below 0.8.
+    /// odd rate below 0.8, nor below 1.6 − 40(τ − ½) next to walls and 1.2 − 20(τ − ½) in and next to blocks.
     pub const fn new(tau: f64) -> Self {
         Self {
             tau,
@@ -129,7 +129,10 @@ impl Config {
             lambda_wall: 3.0 / 16.0,
             lambda_solid: Some(0.1),
             lambda_everywhere: None,
-            floor: 0.8,
+            floors: [
+                f64::max(0.8, 1.6 - 40.0 * (tau - 0.5)),
+                f64::max(0.8, 1.2 - 20.0 * (tau - 0.5)),
+            ],
             solid_weight: SolidWeight::Exact,
             joint_weights: [0.25; 2],
             c_w: None,
@@ -183,11 +186,12 @@ pub fn moment_rates(config: &Config, nu_t: f64, odd: OddClass) -> [f64; Q] {
 
 /// The odd rate that replaces the constants in this cell; `None` for `Suga`, which keeps those of the paper.
 fn odd_override(config: &Config, odd: OddClass) -> Option<f64> {
-    let lambda = match (config.operator, config.lambda_everywhere, odd) {
-        (Operator::Hermite, Some(lambda), _) => lambda,
-        (Operator::Hermite, None, OddClass::Wall) => config.lambda_wall,
-        (Operator::Hermite, None, OddClass::Block) => config.lambda_solid?,
+    let [wall, solid] = config.floors;
+    let (lambda, floor) = match (config.operator, config.lambda_everywhere, odd) {
+        (Operator::Hermite, Some(lambda), _) => (lambda, 0.0),
+        (Operator::Hermite, None, OddClass::Wall) => (config.lambda_wall, wall),
+        (Operator::Hermite, None, OddClass::Block) => (config.lambda_solid?, solid),
         _ => return None,
     };
-    Some(odd_rate(config.tau, lambda, config.floor))
+    Some(odd_rate(config.tau, lambda, floor))
 }

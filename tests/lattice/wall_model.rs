@@ -137,6 +137,65 @@ fn the_fluid_loses_what_the_walls_receive() {
     }
 }
 
+/// In a stream of 0.1 cells per step, y+ of the first cell 250, the transverse velocity must not alternate from cell to cell along
+/// the wall.
+#[test]
+fn water_at_a_wall_does_not_oscillate_from_cell_to_cell() {
+    const SPEED: f64 = 0.1;
+    let rig = Rig::new();
+    let cells = [16_u32, 8, 12];
+    let alternating = |floor: Option<f64>| {
+        let mut setup = Setup::periodic(cells, 1e-5);
+        setup.wale = Some(0.5);
+        setup.wall_model = Some(WallModel::WernerWengle);
+        setup.faces[2] = [WALL, WALL];
+        setup.odd_rate_floor = floor;
+        let mut lattice = rig.start(setup, &eddies(cells, SPEED), true);
+        rig.run(&mut lattice, 1000);
+        let v = &rig.state(&mut lattice).velocity[1];
+        let row = cells[0] as usize;
+        let at_wall = &v[..row * cells[1] as usize];
+        let squares = at_wall.chunks(row).flat_map(|row| {
+            row.windows(3).map(|v| {
+                let part = f64::from(v[0]) - 2.0 * f64::from(v[1]) + f64::from(v[2]);
+                (0.25 * part).powi(2)
+            })
+        });
+        (squares.sum::<f64>() / at_wall.len() as f64).sqrt() / SPEED
+    };
+    assert!(alternating(Some(0.8)) > 5e-3);
+    assert!(alternating(None) < 5e-4);
+}
+
+/// A stream along x with three waves of 0.15 times its speed.
+fn eddies(cells: [u32; 3], speed: f64) -> State {
+    let count = cells.iter().product::<u32>() as usize;
+    let mut state = State::rest(count);
+    for n in 0..count {
+        let row = n / cells[0] as usize;
+        let at = [
+            n % cells[0] as usize,
+            row % cells[1] as usize,
+            row / cells[1] as usize,
+        ];
+        let x = [0, 1, 2].map(|a| (at[a] as f64 + 0.5) / f64::from(cells[a]));
+        let wave = |k: [f64; 3]| {
+            let phase = k[0] * x[0] + k[1] * x[1] + k[2] * x[2];
+            0.15 * (std::f64::consts::TAU * phase).sin()
+        };
+        let between = (std::f64::consts::PI * x[2]).sin();
+        let u = [
+            1.0 + wave([2.0, 1.0, 2.0]),
+            wave([3.0, -2.0, 1.0]),
+            wave([1.0, 2.0, 3.0]) * between,
+        ];
+        for a in 0..3 {
+            state.velocity[a][n] = (speed * u[a]) as f32;
+        }
+    }
+    state
+}
+
 /// Compares both laws with u⁺ = ln(y⁺)/0.384 + 4.27.
 #[test]
 fn laws_are_near_the_log_law() {

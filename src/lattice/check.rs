@@ -97,7 +97,7 @@ impl Setup {
             );
             return Err(Error::argument("nu", message));
         }
-        let rates = self.rates;
+        let rates = self.bulk_rates();
         let rates = [
             ("s4", rates.s4),
             ("s10", rates.s10),

@@ -101,7 +101,7 @@ impl Setup {
             (Collision::Bgk, ..) => rate,
             (_, Some(lambda), _) => self.odd_rate(lambda),
             (.., Some(lambda)) => self.odd_rate(lambda).max(self.odd_rate_floors()[1]),
-            _ => self.rates.s10,
+            _ => self.bulk_rates().s10,
         };
         let (momentum, of_shear, of_third) = match self.solid_operator {
             Some(SolidOperator::Noble) => (1.0, 0.0, 2.0),

@@ -231,7 +231,7 @@ pub fn equilibrium(kind: Equilibrium) -> &'static str {
 /// The constants of a setup for all of its kernels; `odd` is the parity of the step.
 pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f64)> {
     let everywhere = setup.lambda.map(|lambda| setup.odd_rate(lambda));
-    let rates = setup.rates;
+    let rates = setup.bulk_rates();
     let bulk = |rate| everywhere.unwrap_or(rate);
     let mut all = vec![
         ("NX", grid.elements[0].into()),

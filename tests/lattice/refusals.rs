@@ -41,8 +41,12 @@ fn numbers_that_cannot_be_are_refused_by_name() {
         refused("faces.y_min", &closed(inlet));
     }
     for bad in [NAN, 0.0, -1.0, 2.1, 5.0] {
-        refused("rates.s4", &|s| s.rates = Rates::equal(bad));
-        refused("rates.s26", &|s| s.rates.s26 = bad);
+        refused("rates.s4", &|s| s.rates = Some(Rates::equal(bad)));
+        let s26 = Rates {
+            s26: bad,
+            ..Rates::SUGA
+        };
+        refused("rates.s26", &|s| s.rates = Some(s26));
     }
     for bad in [NAN, -1.0, 0.0, f64::INFINITY] {
         refused("lambda", &|s| s.lambda = Some(bad));

@@ -59,7 +59,6 @@ fn noise_and_shear(cells: [u32; 3]) -> Populations {
 fn suga(cells: [u32; 3]) -> Setup {
     let mut setup = Setup::periodic(cells, (1.0 / 1.9 - 0.5) / 3.0);
     setup.collision = Collision::Suga;
-    setup.rates = Rates::SUGA;
     setup.equilibrium = Equilibrium::SecondOrder;
     setup
 }
@@ -113,7 +112,7 @@ pub fn null_models(context: &CaseContext) -> Outcome {
     let bgk = changed(&base, |s| s.collision = Collision::Bgk);
     let equal = |collision| {
         changed(&base, |s| {
-            (s.collision, s.rates) = (collision, Rates::equal(1.0 / s.tau()));
+            (s.collision, s.rates) = (collision, Some(Rates::equal(1.0 / s.tau())));
         })
     };
     let second = |setup: &Setup| changed(setup, |s| s.equilibrium = Equilibrium::SecondOrder);

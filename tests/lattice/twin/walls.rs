@@ -88,13 +88,13 @@ fn lambda_away_from_the_wall_decides_the_slip_of_the_interior() {
         let config = Config {
             lambda_wall,
             floors: [0.0; 2],
-            rates: Rates {
+            rates: Some(Rates {
                 s10: s_odd,
                 s13: s_odd,
                 s23: s_odd,
                 s26: s_odd,
                 ..Rates::SUGA
-            },
+            }),
             ..Config::new(tau)
         };
         let wall = 2.0 / 3.0 * (lambda_wall - 3.0 / 16.0);

@@ -97,8 +97,8 @@ pub struct Config {
     pub equilibrium: Equilibrium,
     /// Collision operator.
     pub operator: Operator,
-    /// Rates of the MRT operators away from walls.
-    pub rates: Rates,
+    /// Rates of the MRT operators away from walls; `None` for the library's defaults.
+    pub rates: Option<Rates>,
     /// Λ of cells next to bounce-back walls, `Hermite` only.
     pub lambda_wall: f64,
     /// Λ of cells with a block and of their neighbours, `Hermite` only; `None` keeps the constants.
@@ -125,7 +125,7 @@ impl Config {
             tau,
             equilibrium: Equilibrium::Product,
             operator: Operator::Hermite,
-            rates: Rates::SUGA,
+            rates: None,
             lambda_wall: 3.0 / 16.0,
             lambda_solid: Some(0.1),
             lambda_everywhere: None,
@@ -158,14 +158,15 @@ pub fn odd_rate(tau: f64, lambda: f64, floor: f64) -> f64 {
 
 /// Rate of each of the 27 moments in the order of Suga's matrix.
 pub fn moment_rates(config: &Config, nu_t: f64, odd: OddClass) -> [f64; Q] {
+    let rates = bulk_rates(config);
     let r = match odd_override(config, odd) {
-        None => config.rates,
+        None => rates,
         Some(s_odd) => Rates {
             s10: s_odd,
             s13: s_odd,
             s23: s_odd,
             s26: s_odd,
-            ..config.rates
+            ..rates
         },
     };
     let s5 = 1.0 / config.tau_eff(nu_t);
@@ -181,6 +182,26 @@ pub fn moment_rates(config: &Config, nu_t: f64, odd: OddClass) -> [f64; Q] {
         20..=22 => r.s20,
         23..=25 => r.s23,
         _ => r.s26,
+    })
+}
+
+/// The given rates, or those of Suga et al., of which `Hermite` changes six below τ = 0.52: linearly to 1.9 (odd orders) and 1.6
+/// (deviators of fourth order, 112) at τ = ½.
+fn bulk_rates(config: &Config) -> Rates {
+    let published = Rates::SUGA;
+    let low = match config.operator {
+        Operator::Hermite => (1.0 - (config.tau - 0.5) / 0.02).max(0.0),
+        _ => 0.0,
+    };
+    let to = |rate: f64, limit: f64| (1.0 - low) * rate + low * limit;
+    config.rates.unwrap_or(Rates {
+        s10: to(published.s10, 1.9),
+        s13: to(published.s13, 1.9),
+        s18: to(published.s18, 1.6),
+        s20: to(published.s20, 1.6),
+        s23: to(published.s23, 1.9),
+        s26: to(published.s26, 1.9),
+        ..published
     })
 }
 

@@ -162,12 +162,12 @@ fn the_apertures_of_closed_joints_are_in_metres() {
     let pair = |key: &str| [0, 1].map(|n| joints[key][n].as_f64().unwrap());
     let step = report["numerics"]["time_step"].as_f64().unwrap();
     let (cell, viscosity) = (0.2 / 12.0, 1e-6);
-    for (found, conductance) in pair("apertures").iter().zip([0.692, 2.82]) {
+    for (found, conductance) in pair("apertures").iter().zip([0.4286, 2.817]) {
         let expected = (12.0 * viscosity * conductance * cell * step).cbrt();
         assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
     }
     // The half times follow from D = C/7 in two rows and C/4 in a shared one, for squares of 12 cells.
-    let expected = [7.0 / 2.82, 4.0 / 0.692].map(|slow| 0.0594 * 144.0 * slow * step);
+    let expected = [7.0 / 2.817, 4.0 / 0.4286].map(|slow| 0.0594 * 144.0 * slow * step);
     for (found, expected) in pair("times").iter().zip(expected) {
         assert!((found / expected - 1.0).abs() < 2e-3, "{found} {expected}");
     }

@@ -5,10 +5,14 @@ use crate::gpu::Processor;
 
 /// Lower bound of the odd rates from a Λ, from τ = 0.52 on.
 const ODD_RATE_FLOOR: f64 = 0.8;
-/// Those next to walls and next to solids for τ → ½. With 0.8, streams of 0.1 cells per step along blocks diverge at a viscosity of
-/// 1e-6 m²/s (with 1 to 1.8 they do not), and the water next to walls with a wall model oscillates from cell to cell (from 1.5 on
-/// it does not). Joints of blocks conduct less at higher rates.
+/// Those next to walls and next to solids for τ → ½. With 0.8, streams of 0.1 cells per step along blocks diverge, and the water
+/// next to walls with a wall model oscillates from cell to cell. Joints of blocks conduct less at higher rates.
 const LOW_VISCOSITY_FLOORS: [f64; 2] = [1.6, 1.2];
+/// Odd rates of [`Collision::Hermite`] away from walls and solids for τ → ½. With the published ones waves of a few cells grow in
+/// streams of 0.05 to 0.1 cells per step, by 1 to 4 ‰ per step at a viscosity of 1e-5.
+const LOW_VISCOSITY_ODD_RATE: f64 = 1.9;
+/// Its s18 and s20 for τ → ½; the published values, 1.98, hardly damp the noise of reflecting walls.
+const LOW_VISCOSITY_S18_S20: f64 = 1.6;
 
 /// Collision operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,19 +154,6 @@ impl Rates {
         s26: 1.74,
     };
 
-    /// The limit of those of [`Collision::Hermite`] for τ → ½. The published odd rates let waves of a few cells grow in streams of
-    /// 0.05 to 0.1 cells per step, by 1 to 4 ‰ per step at a viscosity of 1e-5, and the published s18 and s20 hardly damp the noise
-    /// of reflecting walls.
-    const LOW_VISCOSITY: Self = Self {
-        s10: 1.9,
-        s13: 1.9,
-        s18: 1.6,
-        s20: 1.6,
-        s23: 1.9,
-        s26: 1.9,
-        ..Self::SUGA
-    };
-
     /// One rate for all moments.
     pub fn equal(s: f64) -> Self {
         Self {
@@ -175,22 +166,6 @@ impl Rates {
             s20: s,
             s23: s,
             s26: s,
-        }
-    }
-
-    /// Rates between these and others.
-    fn towards(self, other: Self, share: f64) -> Self {
-        let between = |rate: fn(&Self) -> f64| rate(&self) + share * (rate(&other) - rate(&self));
-        Self {
-            s4: between(|r| r.s4),
-            s10: between(|r| r.s10),
-            s13: between(|r| r.s13),
-            s16: between(|r| r.s16),
-            s17: between(|r| r.s17),
-            s18: between(|r| r.s18),
-            s20: between(|r| r.s20),
-            s23: between(|r| r.s23),
-            s26: between(|r| r.s26),
         }
     }
 }
@@ -471,8 +446,17 @@ impl Setup {
             Collision::Hermite => self.low_viscosity(),
             Collision::Bgk | Collision::Suga => 0.0,
         };
-        let default = Rates::SUGA.towards(Rates::LOW_VISCOSITY, share);
-        self.rates.unwrap_or(default)
+        let published = Rates::SUGA;
+        let to = |rate: f64, limit: f64| rate + share * (limit - rate);
+        self.rates.unwrap_or(Rates {
+            s10: to(published.s10, LOW_VISCOSITY_ODD_RATE),
+            s13: to(published.s13, LOW_VISCOSITY_ODD_RATE),
+            s18: to(published.s18, LOW_VISCOSITY_S18_S20),
+            s20: to(published.s20, LOW_VISCOSITY_S18_S20),
+            s23: to(published.s23, LOW_VISCOSITY_ODD_RATE),
+            s26: to(published.s26, LOW_VISCOSITY_ODD_RATE),
+            ..published
+        })
     }
 
     /// 0 from τ = 0.52 on, 1 at τ = ½.

@@ -97,11 +97,9 @@ impl Setup {
 
     fn kept(&self) -> Kept {
         let rate = 1.0 / self.tau();
-        let third = match (self.collision, self.lambda, self.solid_lambda) {
-            (Collision::Bgk, ..) => rate,
-            (_, Some(lambda), _) => self.odd_rate(lambda),
-            (.., Some(lambda)) => self.odd_rate(lambda).max(self.odd_rate_floors()[1]),
-            _ => self.bulk_rates().s10,
+        let third = match (self.collision, self.odd_rates()) {
+            (Collision::Bgk, _) => rate,
+            (_, [_, solids]) => solids.unwrap_or(self.bulk_rates().s10),
         };
         let (momentum, of_shear, of_third) = match self.solid_operator {
             Some(SolidOperator::Noble) => (1.0, 0.0, 2.0),

@@ -264,9 +264,7 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("S23", bulk(rates.s23)),
         ("S26", bulk(rates.s26)),
     ];
-    let [wall_floor, solid_floor] = setup.odd_rate_floors();
-    let floored = |lambda, floor| setup.odd_rate(lambda).max(floor);
-    let at_walls = everywhere.or(setup.wall_lambda.map(|lambda| floored(lambda, wall_floor)));
+    let [at_walls, at_blocks] = setup.odd_rates();
     let wall = |rate| at_walls.unwrap_or(rate);
     all.extend([
         ("W10", wall(rates.s10)),
@@ -274,9 +272,6 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("W23", wall(rates.s23)),
         ("W26", wall(rates.s26)),
     ]);
-    let at_blocks = everywhere.or(setup
-        .solid_lambda
-        .map(|lambda| floored(lambda, solid_floor)));
     let near = |rate| at_blocks.unwrap_or(rate);
     all.extend([
         ("N10", near(rates.s10)),

@@ -264,7 +264,7 @@ fn list_block_faces(
 fn list_sloping_face(cell: vec3<u32>, here: Solid, found: SlopingCell) {
     let n = atomicAdd(&face_counts[1], 1u);
     if (n < arrayLength(&found_faces)) {
-        let law = law_at_slope(found, velocity_of_block(here));
+        let law = law_at_slope(found, velocity_of_block(here), 0.0);
         let stress = law.friction * law.friction / max(length(law.u), 1e-30) * law.u;
         let face = law.slope & 7u;
         let beyond = f32(law.slope >> SLOPE_CELLS) - 0.5 - law.distance / abs(law.normal[face / 2u]);

@@ -1,7 +1,7 @@
 // Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid. The weight B depends on the fraction e of the cell that
 // blocks fill and on the relaxation time tau. The operator of the solid is linear in rho and in the velocity
 // of the solid, so that the force of each block in a cell follows from its own fraction and velocity.
-// needs velocity, moments, psm_planes, psm_storage, joint_gap, $cell_flags, $operator, $weight, $reals, $surface, $block_friction
+// needs velocity, moments, psm_planes, psm_storage, solid_weights, $cell_flags, $operator, $weight, $reals, $surface, $block_friction
 
 // B of the momentum in full cells where blocks are in contact with each other or with a wall. B = 1 would reflect the populations
 // in such a cell forever: the block would keep the pressure of the time when its joint closed, and would be tied to its neighbour
@@ -9,12 +9,6 @@
 override JOINT_WEIGHT: f32;
 // The same in joints with two rows of cells; with a prescribed aperture these let through as much as joints with one row.
 override FACING_WEIGHT: f32;
-// As a joint opens, its cells become ordinary ones. While both faces are in one cell, and in nearly full cells, B is at least this
-// value, since the weight of a cell without friction is zero.
-const LEAST_WEIGHT = 0.25;
-// The same for all other moments. Full cells reflect the populations that leave a joint, after two steps, and the loads reach
-// blocks late: without damping here, oscillations with a period of four steps grow between blocks of few cells.
-const JOINT_DAMPING = 0.0625;
 
 struct PsmCell {
     // e, and the sum of the fractions of the parts, which share the force in proportion; more than 1 where blocks overlap.
@@ -57,12 +51,6 @@ fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
     return nu_t * (1.0 - psm.fraction);
 }
 
-// Weights that blend the change of a moment with the change by the solid: of momentum, and of higher moments.
-struct SolidWeights {
-    momentum: Real,
-    higher: Real,
-}
-
 // Runs before the collision: stores the values for the loads, and replaces the moments h by the change by the solid alone, so
 // that a GPU holds no more values than without solids.
 fn collide_with_solid(
@@ -79,7 +67,7 @@ fn collide_with_solid(
 ) -> SolidWeights {
     let e = psm.fraction;
     let open = solid_weight(e, tau_minus_half, odd_rate);
-    let closure = clamp((e - Real(1.0 - OPEN_GAP)) / (OPEN_GAP - CLOSED_GAP), Real(0.0), Real(1.0));
+    let closure = closure_of(e);
     let narrow = (closure > Real(0.0)) & (psm.shares > Real(0.0)) & !psm.interior;
     var at_wall = Mask(false);
     // Momentum that the fluid loses along walls.
@@ -99,7 +87,9 @@ fn collide_with_solid(
     let higher_without_law = select(others + joint * (JOINT_DAMPING - others), Real(1.0), psm.interior);
     let v = psm.velocity;
     let excess = (*h)[0u];
-    var s = equilibrium(rho, sliding_velocity(slot, local, rho, v, h));
+    let without_block = (e > Real(0.0)) & (psm.shares == Real(0.0));
+    let on_surface = sliding_on_surface(slot, local, without_block, rho, v, h);
+    var s = equilibrium(rho, sliding_velocity(slot, local, rho, on_surface, h));
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }
@@ -120,14 +110,6 @@ fn collide_with_solid(
     write_psm(PLANE_G + 1u, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[3u] - a * v.y), fluid) + each * lost.y, u.y, adjacent)));
     write_psm(PLANE_G + 2u, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[9u] - a * v.z), fluid) + each * lost.z, u.z, adjacent)));
     return SolidWeights(weight, higher);
-}
-
-// Blends the change by the collision with the change by the solid.
-fn blend_with_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
-    for (var k = 1u; k < 27u; k++) { // unroll
-        let part = select(weights.higher, weights.momentum, Mask(k == 1u || k == 3u || k == 9u));
-        (*change)[k] += part * ((*solid)[k] - (*change)[k]);
-    }
 }
 
 // Noble & Torczynski 1998, eq. 4: the velocity in the middle of the step, after half of the body force on the fluid and half of

@@ -1,6 +1,6 @@
 // Gardner & Sitar 2018, eq. 8-10: f* = f + (1 - B) fluid + B solid in cells that solids at rest fill in part. Full cells reflect
 // populations; with the exact weight, a grid-aligned plane then lies where it should.
-// needs velocity, moments, surface_fraction, $operator, $weight
+// needs velocity, moments, surface_fraction, solid_weights, $operator, $weight
 
 struct PsmCell {
     fraction: Real,
@@ -22,11 +22,6 @@ fn outside_solids(psm: PsmCell, nu_t: Real) -> Real {
     return nu_t * (1.0 - psm.fraction);
 }
 
-// Weight that blends the change of the moments with the change by the solid.
-struct SolidWeights {
-    all: Real,
-}
-
 // Runs before the collision: replaces the moments h by the change by the solid alone.
 fn collide_with_solid(
     p: Place,
@@ -41,20 +36,15 @@ fn collide_with_solid(
     h: ptr<function, array<Real, 27>>,
 ) -> SolidWeights {
     let zero = Real(0.0);
-    var s = equilibrium(rho, Vector(zero, zero, zero));
+    var s = equilibrium(rho, sliding_on_surface(slot, local, psm.fraction > zero, rho, Vector(zero, zero, zero), h));
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }
     _ = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, Mask(false), &s);
     *h = s;
-    return SolidWeights(solid_weight(psm.fraction, tau_minus_half, odd_rate));
-}
-
-// Blends the change by the collision with the change by the solid.
-fn blend_with_solid(weights: SolidWeights, solid: ptr<function, array<Real, 27>>, change: ptr<function, array<Real, 27>>) {
-    for (var k = 1u; k < 27u; k++) { // unroll
-        (*change)[k] += weights.all * ((*solid)[k] - (*change)[k]);
-    }
+    let open = solid_weight(psm.fraction, tau_minus_half, odd_rate);
+    let closure = closure_of(psm.fraction);
+    return SolidWeights(max(open, closure * LEAST_WEIGHT), max(open, closure * JOINT_DAMPING));
 }
 
 // The velocity of the statistics: as the fields show it, without the change by the solid.

@@ -2,27 +2,7 @@
 // cells, along the axis nearest to the normal, give the face near each cell at the surface. The law of the wall reads the velocity
 // in the column at least four cells from the face. block_friction_stored.wgsl lets the fluid slide in cells that the face cuts,
 // and sloping_friction.wgsl applies the stress.
-// needs surface_cells, cell_velocities, law_of_the_wall, lattice
-
-// A cell at a sloping face.
-struct SlopingCell {
-    // The face x-, x+, ... nearest to the sloping one, SLOPE_TOP if the cell is the uppermost full one of its column, and from the
-    // bit SLOPE_CELLS on the number of cells to the one whose velocity the law reads; or NO_SLOPE.
-    slope: u32,
-    // Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
-    open: u32,
-    // Scalar of the cell whose velocity the law reads, and its distance from the face, cells.
-    sample: u32,
-    distance: f32,
-    normal: vec3<f32>,
-    // Friction velocity, and the tangential velocity that the law has read, relative to the block.
-    friction: f32,
-    u: vec3<f32>,
-}
-
-const NO_SLOPE = 0xffffu;
-const SLOPE_TOP = 8u;
-const SLOPE_CELLS = 4u;
+// needs surface_cells, sloping_cell, lattice
 
 // Largest slope towards the nearest axis, above 1 since normals at equal angles to two axes are rounded.
 const LARGEST_SLOPE = 1.2;
@@ -196,15 +176,6 @@ fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
     found.slope = face | select(0u, SLOPE_TOP, top) | (cells << SLOPE_CELLS);
     found.sample = scalar_of(through(cell, face, cells));
     found.distance = (f32(cells) - height) * rise;
-    return found;
-}
-
-// Result of the law at a sloping face, with the velocity of the block.
-fn law_at_slope(face: SlopingCell, velocity: vec3<f32>) -> SlopingCell {
-    var found = face;
-    let u = vec3(read_velocity(0u, face.sample), read_velocity(1u, face.sample), read_velocity(2u, face.sample)) - velocity;
-    found.u = u - dot(u, face.normal) * face.normal;
-    found.friction = sqrt(law_of_the_wall(length(found.u), face.distance, 0.0));
     return found;
 }
 

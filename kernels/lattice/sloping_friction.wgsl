@@ -1,8 +1,5 @@
-// Asmuth et al. 2021, Phys. Fluids 33:105111, for faces of blocks at an angle to the grid. The full cells at such a face have
-// reflected the populations that arrived. Those that now leave to the fluid get w c.m more, m along the face: the tangential momentum
-// that arrived leaves again, less the stress of the law of the wall times the area of the face in the column of the cell. The
-// surface of the full cells is a staircase; with m, the velocity of the solid along the face crosses its steps.
-// needs sloping_faces, near_wall_bits, mixing_length, incoming, weights
+// Asmuth et al. 2021, Phys. Fluids 33:105111, for faces of blocks at an angle to the grid.
+// needs sloping_faces, sloping_exchange, near_wall_bits, mixing_length
 
 // The cells of outer_cells.
 @group(0) @binding(49) var<storage, read_write> slopes: array<SlopingCell>;
@@ -45,7 +42,7 @@ fn slope_law(
 }
 
 fn apply_at_slope(n: u32, here: OuterCell) {
-    let law = law_at_slope(slopes[n], velocity_of_block(here.solid));
+    let law = law_at_slope(slopes[n], velocity_of_block(here.solid), 0.0);
     slopes[n].u = law.u;
     slopes[n].friction = law.friction;
     let share = model_share(law.friction);
@@ -113,37 +110,7 @@ fn sloping_friction(
 }
 
 fn apply_sloping_friction(face: SlopingCell, here: OuterCell, share: f32) {
-    let around = neighbourhood(here.cell);
-    // Momentum of the populations that leave to the fluid, and the sum of w c c.
-    var leaving = vec3(0.0);
-    var columns: array<vec3<f32>, 3>;
-    for (var q = 1u; q < 27u; q++) { // unroll
-        if ((face.open & (1u << q)) != 0u) {
-            let c = vec3<f32>(C[q]);
-            leaving += read_outgoing(around, q) * c;
-            columns[0] += (weight(q) * f32(C[q].x)) * c;
-            columns[1] += (weight(q) * f32(C[q].y)) * c;
-            columns[2] += (weight(q) * f32(C[q].z)) * c;
-        }
-    }
-    let weights = mat3x3(columns[0], columns[1], columns[2]);
-    // Relative to the block.
-    leaving -= 3.0 * (weights * velocity_of_block(here.solid));
-    let speed = length(face.u);
-    let is_top = (face.slope & SLOPE_TOP) != 0u;
-    let area = select(0.0, 1.0 / abs(face.normal[(face.slope & 7u) / 2u]), is_top);
-    let change = -2.0 * leaving - area * face.friction * face.friction / max(speed, 1e-30) * face.u;
-    let m = tangential_solution(weights, face.normal, change);
-    // Limits the velocity m/6 to twice the velocity that the law has read.
-    let limited = share * min(1.0, 12.0 * speed / max(length(m), 1e-30)) * m;
-    var gained = vec3(0.0);
-    for (var q = 1u; q < 27u; q++) { // unroll
-        if ((face.open & (1u << q)) != 0u) {
-            let more = weight(q) * dot(vec3<f32>(C[q]), limited);
-            write_outgoing(around, q, read_outgoing(around, q) + more);
-            gained += more * vec3<f32>(C[q]);
-        }
-    }
+    let gained = exchange_at_slope(face, here.cell, velocity_of_block(here.solid), share);
     // The block loses what the fluid gains.
     let parts = decode_sum(read_psm(PLANE_SUM, here.solid.slot, here.solid.place)).fraction;
     for (var a = 0u; a < 3u; a++) { // unroll
@@ -151,28 +118,3 @@ fn apply_sloping_friction(face: SlopingCell, here: OuterCell, share: f32) {
         write_psm(PLANE_G + a, here.solid.slot, here.solid.place, before + gained[a] / parts);
     }
 }
-
-// The vector m normal to n for which the part of M m normal to n is that of b. M is singular where few directions are open; b is
-// then in its range up to rounding.
-fn tangential_solution(matrix: mat3x3<f32>, n: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
-    let other = select(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), abs(n.x) > 0.6);
-    let first = normalize(cross(n, other));
-    let second = cross(n, first);
-    let by_first = matrix * first;
-    let by_second = matrix * second;
-    let a = dot(first, by_first);
-    let mixed = dot(first, by_second);
-    let d = dot(second, by_second);
-    let wanted = vec2(dot(first, b), dot(second, b));
-    // λ/(λ² + s²) instead of 1/λ for both eigenvalues λ: adj(M) det M + s² M over the product of λ² + s².
-    let determinant = a * d - mixed * mixed;
-    let adjugate = vec2(d * wanted.x - mixed * wanted.y, a * wanted.y - mixed * wanted.x);
-    let product = vec2(a * wanted.x + mixed * wanted.y, mixed * wanted.x + d * wanted.y);
-    let s = SMALLEST * SMALLEST;
-    let squares = determinant * determinant + s * (a * a + d * d + 2.0 * mixed * mixed) + s * s;
-    let solved = (determinant * adjugate + s * product) / squares;
-    return solved.x * first + solved.y * second;
-}
-
-// Eigenvalues of M below this count as 0: the part of b there is rounding. One direction along the face has 1/216 or more.
-const SMALLEST = 1e-5;

@@ -1,14 +1,17 @@
 //! Wall model on faces of blocks.
 
-use super::{Lattice, boundary::cell_pass, cell_kernels::CellDispatch, fluid::Dispatch};
+use super::{
+    Lattice, boundary::cell_pass, cell_kernels::CellDispatch, fluid::Dispatch,
+    surface_friction::SlopingCell,
+};
 use crate::{
     Error, Result,
     gpu::{buffers::zeroed, kernel::largest_binding, readback::Readback},
 };
 use bytemuck::{Pod, Zeroable};
 
-/// A face of a block above a full cell, or the part of a sloping face in a column of cells, with the result of the law of the wall, in the layout of
-/// `kernels/lattice/block_friction.wgsl`; lattice units.
+/// A face of a block, or of an exact surface at rest, above a full cell, or the part of a sloping face in a column of cells, with the
+/// result of the law of the wall, in the layout of `kernels/lattice/block_friction.wgsl`; lattice units.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct BlockFace {
@@ -58,13 +61,10 @@ pub(super) struct BlockPasses {
     pub lists: Vec<wgpu::Buffer>,
 }
 
-/// Bytes of a cell at a sloping face.
-const SLOPING_CELL: u64 = 48;
-
 /// Room for the sloping faces at so many cells.
 fn slopes(device: &wgpu::Device, cells: u32) -> Result<wgpu::Buffer> {
     let (wants, has) = (
-        SLOPING_CELL * u64::from(cells.max(1)),
+        size_of::<SlopingCell>() as u64 * u64::from(cells.max(1)),
         largest_binding(&device.limits()),
     );
     if wants > has {
@@ -117,6 +117,10 @@ impl Lattice {
             faces: self.mark_passes(device)?,
             ..BlockPasses::default()
         };
+        passes.faces.extend(self.mark_surface(device)?);
+        for friction in &mut passes.friction {
+            friction.extend(self.surface_shares(device)?);
+        }
         let of_model = self.bricks_of_model().zip(self.streams.face_codes());
         if let Some(((list, cells), codes)) = of_model {
             let outer = zeroed(device, "outer cells of blocks", 4 + 4 * u64::from(cells));
@@ -196,30 +200,5 @@ impl Lattice {
         let mut faces: Vec<BlockFace> = readback.read(device, queue, &list, found as usize).await?;
         faces.sort_unstable_by_key(|face| face.cell);
         Ok(BlockFaces { faces, area })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{
-        gpu::layout::check,
-        lattice::{Setup, single_cells},
-    };
-
-    #[test]
-    fn the_room_for_sloping_faces_is_that_of_the_kernel() {
-        let program = single_cells(&Setup::periodic([4; 3], 0.1), 1, "sloping_friction");
-        let fields = [
-            ("slope", 0),
-            ("open", 4),
-            ("sample", 8),
-            ("distance", 12),
-            ("normal", 16),
-            ("friction", 28),
-            ("u", 32),
-        ];
-        let module = program.link().unwrap().module;
-        check::<[u8; SLOPING_CELL as usize]>(&module, "SlopingCell", &fields).unwrap();
     }
 }

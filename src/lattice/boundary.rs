@@ -46,6 +46,7 @@ impl Lattice {
             }
         }
         passes.extend(self.wall_passes(device, odd)?);
+        passes.extend(self.surface_passes(device, odd)?);
         let moving = storage(
             device,
             "moving cells",

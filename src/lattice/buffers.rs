@@ -8,10 +8,14 @@ use super::{
     populations,
     spread::planes,
     surface::Surface,
+    surface_friction::SurfacePart,
     synthetic_turbulence::Inlet,
     wall_model::WallPart,
 };
-use crate::gpu::buffers::{filled, zeroed};
+use crate::{
+    Result,
+    gpu::buffers::{filled, zeroed},
+};
 
 /// The device memory of a fluid; what a setup does not use is not there.
 #[derive(Debug)]
@@ -39,6 +43,8 @@ pub(super) struct Buffers {
     pub(super) psm_slots: Option<wgpu::Buffer>,
     /// Cells that solids at rest fill in part.
     pub(super) surface: Option<Surface>,
+    /// Faces of these with a wall model.
+    pub(super) sloping_surface: Option<SurfacePart>,
     pub(super) open: OpenBuffers,
 }
 
@@ -142,7 +148,7 @@ pub(super) fn make_buffers(
     grid: &Grid,
     geometry: &Geometry,
     bindings: Bindings,
-) -> Buffers {
+) -> Result<Buffers> {
     let scalars = u64::from(grid.scalar_count());
     let word = super::bytes_per_population(setup.storage);
     let spread = |label, count, bindings, bytes| {
@@ -181,10 +187,12 @@ pub(super) fn make_buffers(
         _ => None,
     };
     let moving = wall_velocities(setup, grid, &geometry.moving);
+    let faces = &geometry.surface_faces;
+    let surface = Surface::new(device, setup, grid, faces);
     let list = |label, values: &[u32]| {
         (!values.is_empty()).then(|| storage(device, label, bytemuck::cast_slice(values)))
     };
-    Buffers {
+    Ok(Buffers {
         populations,
         open: OpenBuffers::new(device, setup, grid, geometry),
         names,
@@ -220,13 +228,14 @@ pub(super) fn make_buffers(
         near_wall_viscosity: setup
             .wall_model
             .map(|_| zeroed(device, "near-wall viscosity", 4 * scalars)),
-        surface: Surface::new(device, setup, grid),
+        sloping_surface: SurfacePart::new(device, setup, grid, faces, surface.as_ref())?,
+        surface,
         walls: WallPart::all(device, setup, &geometry.walls),
         psm_slots: (setup.wall_model.is_some() && setup.solid_operator.is_some()).then(|| {
             let bricks: u32 = grid.bricks().iter().product();
             zeroed(device, "slots of bricks", 4 * u64::from(bricks))
         }),
-    }
+    })
 }
 
 /// What each binding of a field of vectors holds; `of` gives the vector of a domain cell.

@@ -1,6 +1,9 @@
 //! What a lattice takes on its device, by kind.
 
-use super::{Lattice, surface::Surface, synthetic_turbulence::Inlet, wall_model::WallPart};
+use super::{
+    Lattice, surface::Surface, surface_friction::SurfacePart, synthetic_turbulence::Inlet,
+    wall_model::WallPart,
+};
 
 impl Lattice {
     /// Bytes of its buffers, each kind with a name; kinds that it does not have are left out.
@@ -50,6 +53,10 @@ impl Lattice {
             (
                 "wall model",
                 buffers.walls.iter().map(WallPart::bytes).sum::<u64>()
+                    + buffers
+                        .sloping_surface
+                        .as_ref()
+                        .map_or(0, SurfacePart::bytes)
                     + size(&buffers.near_wall_viscosity)
                     + self
                         .of_blocks

@@ -180,9 +180,12 @@ impl Lattice {
             &self.buffers.near_wall_viscosity,
             state.near_wall.len() == cells,
         ) {
-            (Some(buffer), true) => write(buffer, &state.near_wall),
+            (Some(buffer), true) => {
+                write(buffer, &state.near_wall);
+                self.set_near_wall(device, queue, true)?;
+            }
             // Without blocks it follows from the velocity.
-            (Some(_), false) => self.set_near_wall(device, queue)?,
+            (Some(_), false) => self.set_near_wall(device, queue, false)?,
             (None, _) => {}
         }
         let into: Vec<_> = self

@@ -83,7 +83,7 @@ impl Lattice {
         let grid = Grid::new(&setup)?;
         let memory = super::memory(&setup, &grid, &device.limits())?;
         let geometry = Geometry::new(&setup, &grid);
-        let buffers = make_buffers(device, &setup, &grid, &geometry, memory.bindings);
+        let buffers = make_buffers(device, &setup, &grid, &geometry, memory.bindings)?;
         let streams = Streams::new(device, &setup, &grid, &geometry, memory.bindings, &buffers)?;
         let mut lattice = Self {
             bindings: memory.bindings,

@@ -4,6 +4,7 @@ use super::{
     Face, Grid, Setup,
     stages::{FACES, Stages},
     surface,
+    surface_friction::SurfaceFaces,
     wall_model::Walls,
 };
 use crate::gpu::Processor;
@@ -118,6 +119,8 @@ pub struct Geometry {
     pub links: Vec<Link>,
     /// Cells at walls whose friction a law of the wall gives, and their links.
     pub walls: Walls,
+    /// Faces of exact surfaces whose friction a law of the wall gives.
+    pub surface_faces: SurfaceFaces,
     /// Cells at moving walls and velocity faces; in the order of their stages.
     pub moving: Vec<MovingCell>,
     /// Cells of pressure faces in the order of their stages, once for each face.
@@ -191,6 +194,8 @@ impl Geometry {
         }
         geometry.join_links(grid);
         geometry.walls.own_layers(grid);
+        geometry.surface_faces = SurfaceFaces::new(&survey, &geometry.walls);
+        geometry.walls.area = geometry.surface_faces.area(geometry.walls.area);
         for cells in [&mut geometry.pressure, &mut geometry.outflow] {
             set_turns(cells);
         }
@@ -358,7 +363,7 @@ impl Geometry {
 }
 
 impl Survey<'_> {
-    fn is_solid(&self, cell: [u32; 3]) -> bool {
+    pub(super) fn is_solid(&self, cell: [u32; 3]) -> bool {
         let solid = &self.setup.solid;
         !solid.is_empty() && solid[self.grid.index(cell)]
     }
@@ -388,6 +393,20 @@ impl Survey<'_> {
         });
         rows.into_iter()
             .all(|first| !solid[first..first + 3].contains(&true))
+    }
+
+    /// The cell next to one in a direction, across periodic faces too; none outside the domain.
+    pub(super) fn neighbour_in_domain(&self, cell: [u32; 3], c: [i32; 3]) -> Option<[u32; 3]> {
+        let mut to = cell;
+        for a in 0..3 {
+            let n = i64::from(self.grid.cells[a]);
+            let at = i64::from(cell[a]) + i64::from(c[a]);
+            if !self.periodic[a] && !(0..n).contains(&at) {
+                return None;
+            }
+            to[a] = at.rem_euclid(n) as u32;
+        }
+        Some(to)
     }
 
     pub(super) fn padded_index(&self, [x, y, z]: [u32; 3]) -> u32 {

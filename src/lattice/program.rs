@@ -247,6 +247,7 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("BRICK_X", grid.brick[0].into()),
         ("BRICK_Y", grid.brick[1].into()),
         ("BRICK_Z", grid.brick[2].into()),
+        ("SURFACE_PLANES", setup.surface_planes().into()),
         ("SLOPING", setup.has_sloping_friction().into()),
         ("ODD", f64::from(u8::from(odd))),
         ("GUARD_ODD", f64::from(u8::from(odd))),

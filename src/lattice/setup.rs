@@ -209,7 +209,8 @@ pub struct Setup {
     /// and store their velocity for the next one, and a cell takes 8 bytes less.
     pub wale_interval: u32,
     /// Law of the wall for the friction of walls at rest, static solids and grid-aligned faces of blocks, if a wall is plane and
-    /// has five cells of fluid in front of it; no slip elsewhere. It needs `wale`. `None`: no code for it.
+    /// has five cells of fluid in front of it, and with populations in 32 bits of the surfaces that `surface` describes, at any angle
+    /// to the grid; no slip elsewhere. It needs `wale`. `None`: no code for it.
     pub wall_model: Option<WallModel>,
     /// Whether it also acts on faces of blocks at an angle to the grid, and on edges. It needs `wall_model`, the operator of
     /// Holdych, and populations in 32 bits.
@@ -311,6 +312,16 @@ impl Setup {
     /// Whether the wall model acts on blocks. With 16-bit storage GPUs lack the registers for it.
     pub fn has_block_friction(&self) -> bool {
         self.wall_model.is_some() && self.solid_operator.is_some() && self.storage == Storage::F32
+    }
+
+    /// Whether it acts on exact surfaces of solids at rest at any angle to the grid.
+    pub fn has_surface_friction(&self) -> bool {
+        self.wall_model.is_some() && !self.surface.is_empty() && self.storage == Storage::F32
+    }
+
+    /// Planes of the cells that solids at rest fill in part: the fraction; and for the wall model its share and the normal.
+    pub(super) fn surface_planes(&self) -> u32 {
+        if self.has_surface_friction() { 5 } else { 1 }
     }
 
     /// Whether it also acts on faces of blocks at an angle to the grid.

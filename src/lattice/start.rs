@@ -92,7 +92,7 @@ impl Lattice {
             dispatch.record(&mut pass);
         }
         queue.submit([encoder.finish()]);
-        self.set_near_wall(device, queue)?;
+        self.set_near_wall(device, queue, false)?;
         self.store_outflow_faces(device, queue)
     }
 

@@ -1,6 +1,6 @@
 //! Cells that solids at rest fill in part, as the device has them.
 
-use super::{C, Grid, Setup, buffers::storage};
+use super::{C, Grid, Setup, buffers::storage, surface_friction::SurfaceFaces};
 
 /// In a fluid cell next to one that is filled in part.
 const NEAR: f32 = -1.0;
@@ -10,8 +10,11 @@ const NEAR: f32 = -1.0;
 pub(super) struct Surface {
     /// Of each brick its place among those with such cells or their neighbours, from 1.
     pub slots: wgpu::Buffer,
-    /// The fractions in these bricks.
+    /// [`Setup::surface_planes`] planes in each of these bricks.
     pub fractions: wgpu::Buffer,
+    /// The slots, as the buffer has them.
+    places: Vec<u32>,
+    planes: u32,
 }
 
 /// The bricks that hold cells which solids fill in part, or neighbours of such cells, in ascending order.
@@ -59,13 +62,26 @@ pub(super) fn bytes(setup: &Setup, grid: &Grid) -> [u64; 2] {
     }
     let product = |of: [u32; 3]| of.iter().map(|&n| u64::from(n)).product::<u64>();
     let cells = product(grid.brick) * u64::from(grid.lanes);
-    let count = bricks(setup, grid).len() as u64;
+    let count = bricks(setup, grid).len() as u64 * u64::from(setup.surface_planes());
     [4 * product(grid.bricks()), 4 * count * cells]
+}
+
+/// Index of a cell among the scalars of a plane of its brick.
+fn scalar_of(grid: &Grid, slots: &[u32], planes: u32, cell: [u32; 3], plane: u32) -> usize {
+    let each = (grid.brick.iter().product::<u32>() * grid.lanes) as usize;
+    let (brick, place) = grid.place_in_bricks(cell);
+    let slot = slots[brick as usize] as usize - 1;
+    (slot * planes as usize + plane as usize) * each + place as usize
 }
 
 impl Surface {
     /// Those of a setup; none without such cells.
-    pub fn new(device: &wgpu::Device, setup: &Setup, grid: &Grid) -> Option<Self> {
+    pub fn new(
+        device: &wgpu::Device,
+        setup: &Setup,
+        grid: &Grid,
+        faces: &SurfaceFaces,
+    ) -> Option<Self> {
         if setup.surface.is_empty() {
             return None;
         }
@@ -74,22 +90,30 @@ impl Surface {
         for (slot, brick) in (1..).zip(&bricks) {
             slots[*brick as usize] = slot;
         }
-        let elements = grid.brick.iter().product::<u32>() as usize;
-        let lanes = grid.lanes as usize;
-        let mut fractions = vec![0f32; bricks.len() * elements * lanes];
+        let planes = setup.surface_planes();
+        let each = (grid.brick.iter().product::<u32>() * grid.lanes) as usize;
+        let mut values = vec![0f32; bricks.len() * planes as usize * each];
+        let place = |cell, plane| scalar_of(grid, &slots, planes, cell, plane);
         for (cell, value) in marked(setup, grid) {
-            let (brick, place) = grid.place_in_bricks(cell);
-            let slot = slots[brick as usize] as usize - 1;
-            fractions[slot * elements * lanes + place as usize] = value;
+            values[place(cell, 0)] = value;
         }
+        for (_, cell, normal) in faces.cut() {
+            for (n, component) in (2..).zip(normal) {
+                values[place(grid.padded_cell(cell), n)] = component;
+            }
+        }
+        let fractions = bytemuck::cast_slice(&values);
         Some(Self {
             slots: storage(device, "slots of surfaces", bytemuck::cast_slice(&slots)),
-            fractions: storage(
-                device,
-                "surface fractions",
-                bytemuck::cast_slice(&fractions),
-            ),
+            fractions: storage(device, "surface fractions", fractions),
+            places: slots,
+            planes,
         })
+    }
+
+    /// Index of a cell of these bricks among the scalars of a plane.
+    pub fn plane(&self, grid: &Grid, cell: [u32; 3], plane: u32) -> usize {
+        scalar_of(grid, &self.places, self.planes, cell, plane)
     }
 
     /// Bytes of its buffers.

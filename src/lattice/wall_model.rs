@@ -115,6 +115,25 @@ impl Walls {
     }
 }
 
+impl Walls {
+    /// The cells whose eddy viscosity follows from these walls.
+    pub(super) fn layer_cells(&self, grid: &Grid) -> impl Iterator<Item = [u32; 3]> {
+        self.cells.iter().flat_map(move |wall| {
+            let mut inward = [0; 3];
+            inward[wall.face as usize / 2] = [1, -1][wall.face as usize % 2];
+            let at = move |layer: u32| inward.map(|c| c * layer as i32);
+            (0..wall.layers)
+                .map(move |layer| grid.neighbour(grid.padded_cell(wall.cell), at(layer)))
+        })
+    }
+}
+
+/// Share of the law at a friction velocity, as `law_of_the_wall.wgsl` has it.
+pub(super) fn model_share(friction: f32, nu: f64) -> f32 {
+    let s = ((0.5 * friction / nu as f32 - 3.0) / 3.0).clamp(0.0, 1.0);
+    s * s * (3.0 - 2.0 * s)
+}
+
 impl Survey<'_> {
     /// The face of a cell where the model acts: the nine directions through it lead to walls at rest, and no other one does,
     /// or through an open or moving face, and five cells of fluid lie before it.
@@ -139,7 +158,7 @@ impl Survey<'_> {
             }
             at = self.grid.neighbour(at, inward);
         }
-        Some(face)
+        (!self.is_surface(at)).then_some(face)
     }
 }
 
@@ -195,9 +214,20 @@ impl Lattice {
         self.passes_of_walls(device, "wall_model", odd)
     }
 
-    /// Sets the eddy viscosity next to walls for a complete state; in a step the boundary passes set it.
-    pub(super) fn set_near_wall(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
-        let passes = self.passes_of_walls(device, "near_wall", self.parity() as u32)?;
+    /// Evaluates the law for a complete state, and sets the eddy viscosity next to walls unless it is `known`; in a step the
+    /// boundary passes do so.
+    pub(super) fn set_near_wall(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        known: bool,
+    ) -> Result<()> {
+        let odd = self.parity() as u32;
+        let mut passes = self.surface_laws(device, odd)?;
+        match known {
+            true => passes.truncate(1),
+            false => passes.extend(self.passes_of_walls(device, "near_wall", odd)?),
+        }
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&Default::default());

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Collision, EddyViscosity, InitialPressure, Numerics, Scene, WallModel};
+use super::{Collision, EddyViscosity, InitialPressure, Numerics, Scene, Storage, WallModel};
 use crate::error::{Error, Result};
 use crate::units::Units;
 
@@ -256,18 +256,19 @@ impl Adviser<'_> {
         }
     }
 
-    /// Warns of exact surfaces: a wall model acts only on walls along the sides of cells.
+    /// Warns of exact surfaces with 16-bit storage: the wall model then acts only on walls along the sides of cells.
     fn friction_of_surfaces(&mut self) {
         let scene = self.scene;
-        if scene.numerics.wall_model == WallModel::None {
+        let numerics = &scene.numerics;
+        if numerics.wall_model == WallModel::None || numerics.storage == Storage::F32 {
             return;
         }
         let mut solids = scene.solids.iter();
         if let Some(index) = solids.position(|solid| solid.is_exact()) {
             self.warn(
                 &format!("solids[{index}].surface"),
-                "is exact, and the wall model does not act on surfaces that cut cells: their friction is that of the grid, whatever their \
-                 roughness; use surface = \"staircase\" where friction matters more than place"
+                "is exact, and with numerics.storage = \"f16\" the wall model does not act on surfaces that cut cells: their friction is \
+                 that of the grid, whatever their roughness; use storage = \"f32\""
                     .into(),
             );
         }

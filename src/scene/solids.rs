@@ -42,6 +42,20 @@ pub struct Solid {
     pub roughness: f64,
 }
 
+impl Solid {
+    /// A solid of this shape with the defaults of all other keys.
+    pub fn new(shape: Shape) -> Self {
+        Self {
+            name: None,
+            void: false,
+            shape,
+            material: None,
+            surface: None,
+            roughness: 0.0,
+        }
+    }
+}
+
 /// Surface of a static solid for the fluid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

@@ -79,15 +79,22 @@ impl Simulation {
             .lattice
             .block_faces(&fluid.device, &fluid.queue)
             .await?;
-        let walls = &fluid.lattice.geometry().walls;
+        let lattice = &fluid.lattice;
+        let surfaces = lattice.surface_faces(&fluid.device, &fluid.queue).await?;
+        let walls = &lattice.geometry().walls;
         let each = walls.cells.iter().zip(&stresses);
         let on_walls = each.map(|(wall, stress)| fluid.wall_friction(wall, stress));
-        let on_blocks = blocks.faces.iter().map(|face| fluid.block_friction(face));
+        let on_face = |face, place| fluid.face_friction(face, place);
+        let on_surfaces = surfaces.iter().map(|face| on_face(face, WallPlace::Solids));
+        let on_blocks = blocks
+            .faces
+            .iter()
+            .map(|face| on_face(face, WallPlace::Blocks));
         let share = |some: usize, all: u64| some as f64 / all.max(1) as f64;
         Ok(WallFrictions {
-            walls: on_walls.chain(on_blocks).collect(),
+            walls: on_walls.chain(on_surfaces).chain(on_blocks).collect(),
             cell: fluid.units.cell,
-            area_share: share(walls.cells.len(), walls.area),
+            area_share: share(walls.cells.len() + surfaces.len(), walls.area),
             block_area_share: share(blocks.faces.len(), blocks.area),
         })
     }
@@ -102,6 +109,9 @@ impl Simulation {
         let walls = &fluid.lattice.geometry().walls.cells;
         let place = |wall: &WallCell| fluid.wall_friction(wall, &WallStress::default()).place;
         let mut found: HashSet<_> = walls.iter().map(place).collect();
+        if fluid.lattice.geometry().surface_faces.count > 0 {
+            found.insert(WallPlace::Solids);
+        }
         if fluid.lattice.setup().has_block_friction() {
             found.insert(WallPlace::Blocks);
         }
@@ -145,24 +155,24 @@ impl LatticeFluid {
         }
     }
 
-    fn block_friction(&self, block: &BlockFace) -> WallFriction {
+    fn face_friction(&self, face: &BlockFace, place: WallPlace) -> WallFriction {
         let (units, grid) = (&self.units, self.lattice.grid());
-        let (axis, side) = (block.face as usize / 2, block.face as usize % 2);
-        let normal = block.normal.map(f64::from);
-        let cell = grid.padded_cell(block.cell);
+        let (axis, side) = (face.face as usize / 2, face.face as usize % 2);
+        let normal = face.normal.map(f64::from);
+        let cell = grid.padded_cell(face.cell);
         let mut position = self.scene.centre(cell);
-        position[axis] += (0.5 + f64::from(block.fraction)) * units.cell * [-1.0, 1.0][side];
-        let friction_velocity = units.velocity_from_lattice(f64::from(block.friction));
+        position[axis] += (0.5 + f64::from(face.fraction)) * units.cell * [-1.0, 1.0][side];
+        let friction_velocity = units.velocity_from_lattice(f64::from(face.friction));
         WallFriction {
             position,
             normal,
-            place: WallPlace::Blocks,
-            stress: block
+            place,
+            stress: face
                 .stress
                 .map(|value| units.stress_from_lattice(value.into())),
             friction_velocity,
             y_plus: self.wall_units_of(friction_velocity),
-            share: block.share.into(),
+            share: face.share.into(),
         }
     }
 

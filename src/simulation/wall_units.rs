@@ -143,9 +143,10 @@ impl LatticeFluid {
         let solid = |at: usize| setup.solid.get(at).is_some_and(|solid| *solid);
         let grid = self.lattice.grid();
         let walls = self.lattice.geometry().walls.cells.iter();
-        let modelled: HashSet<usize> = walls
+        let mut modelled: HashSet<usize> = walls
             .map(|wall| grid.index(grid.padded_cell(wall.cell)))
             .collect();
+        modelled.extend(self.lattice.geometry().surface_faces.open_cells(grid));
         let mut all = Vec::new();
         let mut stride = 1;
         for axis in 0..3 {

@@ -10,7 +10,7 @@ use kit::twin::{
 };
 use riprap::lattice::{
     Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Statistic, Statistics,
-    Storage, WallModel,
+    Storage, SurfaceCell, WallModel,
 };
 
 /// Compares with the twin after 1, 2 and 5 steps, and the statistics of the states before three of these. Forces are sums over the populations of a cell, whose weights add up to 1, and
@@ -414,6 +414,104 @@ fn friction_of_sloping_faces() {
             assert_restarts(&mut subject, |again| {
                 again.fill_with(&bricks, |cell| slab(cells, cell));
             });
+        }
+    }
+}
+
+/// A bed at rest whose surface rises along x and, less, along z, up to its edges.
+fn bed(cells: [usize; 3]) -> impl Iterator<Item = f64> {
+    let [nx, ny, nz] = cells;
+    (0..nx * ny * nz).map(move |cell| match cell / nx % ny {
+        0 => 1.0,
+        _ => slab(cells, cell)
+            .fraction
+            .max(f64::from(u8::from(cell / nx % ny < 3))),
+    })
+}
+
+/// A moving bar near that bed, over some of its columns.
+fn bar([nx, ny, nz]: [usize; 3], cell: usize) -> Solid {
+    let at = [cell % nx, cell / nx % ny, cell / nx / ny];
+    let holds = |[x, y, z]: [usize; 3]| (4..7).contains(&x) && (13..15).contains(&y) && z < 5;
+    let beside = (0..3).any(|axis| {
+        [1, [nx, ny, nz][axis] - 1].into_iter().any(|step| {
+            let mut other = at;
+            other[axis] = (at[axis] + step) % [nx, ny, nz][axis];
+            holds(other)
+        })
+    });
+    let own = f64::from(u8::from(holds(at)));
+    Solid {
+        fraction: own,
+        shares: own,
+        velocity: [0.0078125, 0.0, -0.00390625].map(|v| v * own),
+        beside: own == 0.0 && beside,
+        ..Solid::default()
+    }
+}
+
+#[test]
+fn friction_of_exact_surfaces() {
+    let cells = [12, 28, 10];
+    let layouts = [
+        (Storage::F32, 1, 2, [4, 4, 2]),
+        (Storage::F32, 4, 1, [8, 4, 1]),
+        (Storage::F16, 2, 2, [4, 2, 4]),
+    ];
+    for (n, (storage, lanes, axis, brick)) in layouts.into_iter().enumerate() {
+        for (nu, with_block) in [(3e-3, true), (2e-5, false), (1e-6, true)] {
+            let mut setup = Setup::periodic(cells.map(|n| n as u32), nu);
+            (setup.storage, setup.lanes, setup.lane_axis, setup.brick) =
+                (storage, lanes, axis, brick);
+            setup.faces[1] = [Face::Wall([0.0; 3]), Face::FreeSlip];
+            setup.solid = bed(cells).map(|e| e == 1.0).collect();
+            setup.solid_roughness = (0..setup.solid.len())
+                .map(|cell| 0.25 * (cell % 3) as f32)
+                .collect();
+            let cut = |(cell, fraction): (usize, f64)| SurfaceCell {
+                cell: cell as u32,
+                fraction: fraction as f32,
+            };
+            let partial = bed(cells).enumerate().filter(|(_, e)| e % 1.0 > 0.0);
+            setup.surface = partial.map(cut).collect();
+            setup.solid_operator = with_block.then_some(SolidOperator::Holdych);
+            setup.wale = Some(0.5);
+            setup.wall_model = Some([WallModel::WernerWengle, WallModel::Reichardt][n % 2]);
+            setup.force = Force::Constant([1e-5, 0.0, 2e-6]);
+            let mut subject = Subject::new(&setup);
+            let bricks = subject.some_bricks();
+            let put = |subject: &mut Subject| {
+                let at_rest = subject.twin.wall_model.clone().unwrap().surface;
+                let (_, solids) = subject.twin.blocks.clone().unwrap();
+                subject.fill_with(&bricks, |cell| bar(cells, cell));
+                let (_, found) = subject.twin.blocks.as_mut().unwrap();
+                for (cell, solid) in found.iter_mut().enumerate() {
+                    if solid.shares == 0.0 {
+                        solid.fraction = at_rest[cell];
+                        solid.beside |= solids[cell].beside;
+                    }
+                }
+            };
+            if with_block {
+                put(&mut subject);
+            }
+            let name = format!("{storage:?}, {lanes} lanes, nu {nu}");
+            for steps in [1, 1, 3] {
+                subject.rig.run(&mut subject.lattice, steps);
+                subject.twin.run(steps);
+                let error = subject.population_error();
+                println!("{name}, step {steps}: {error:e}");
+                assert!(error < limit(&setup), "{name}, step {steps}: {error:e}");
+                let expected = subject.twin.surface_faces();
+                assert!(
+                    expected.len() > 40 || storage == Storage::F16,
+                    "{name}: {} faces",
+                    expected.len()
+                );
+            }
+            if with_block {
+                assert_restarts(&mut subject, put);
+            }
         }
     }
 }

@@ -124,6 +124,11 @@ impl Output<'_> {
                 }];
                 let name = format!("{stored}{eddy}_surface");
                 self.step(&name, BrickKind::Surface, &at_rest)?;
+                if wale.is_some() && storage == Storage::F32 {
+                    at_rest.wall_model = Some(WallModel::WernerWengle);
+                    let name = format!("{stored}{eddy}_surface_wall_model");
+                    self.step(&name, BrickKind::Surface, &at_rest)?;
+                }
                 for (operator, name) in [
                     (SolidOperator::Holdych, "holdych"),
                     (SolidOperator::Noble, "noble"),
@@ -227,7 +232,7 @@ impl Output<'_> {
         Ok(())
     }
 
-    /// The kernels of the wall model on sloping faces of blocks.
+    /// The kernels of the wall model on sloping faces.
     fn sloping_faces(
         &mut self,
         setup: &lattice::Setup,
@@ -241,6 +246,10 @@ impl Output<'_> {
             ("sloping_friction", "slope_law"),
             ("sloping_friction", "sloping_friction"),
             ("sloping_friction", "clear_above_slopes"),
+            ("surface_friction", "surface_law"),
+            ("surface_friction", "surface_shares"),
+            ("surface_friction", "surface_viscosity"),
+            ("surface_friction", "surface_friction"),
         ] {
             let program = single_cells(setup, 1, file);
             self.put(&format!("{entry}_sloping"), &program, entry, &constants)?;

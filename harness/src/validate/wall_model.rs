@@ -6,7 +6,7 @@ use super::{
 };
 use riprap::{
     lattice::{Face, Force, WallModel},
-    scene::{self, BlockShape, EddyViscosity, Motion, Scene},
+    scene::{self, BlockShape, EddyViscosity, Motion, Scene, Shape, Solid, SolidSurface},
 };
 
 /// Initial mean velocity.
@@ -45,11 +45,13 @@ struct Channel {
     model: Option<WallModel>,
 }
 
-/// A stream along square rods that are blocks, at Re_τ 5200 by the ratio of the cross-section of the water to its perimeter.
+/// A stream along square rods, at Re_τ 5200 by the ratio of the cross-section of the water to its perimeter.
 #[derive(Clone, Copy, Debug)]
 struct Rods {
     /// Their angle to the grid, degrees.
     angle: f64,
+    /// Whether they are solids with an exact surface instead of blocks.
+    at_rest: bool,
     model: bool,
 }
 
@@ -258,24 +260,33 @@ fn judge_friction(
 
 /// Friction of rods whose faces lie along the grid and at an angle to it, and without the model.
 pub fn rods(context: &CaseContext) -> Outcome {
-    let turned = |angle| Rods { angle, model: true };
-    let all = [
-        turned(0.0),
-        turned(0.5_f64.atan().to_degrees()),
-        turned(45.0),
-        Rods {
-            model: false,
-            ..turned(0.5_f64.atan().to_degrees())
-        },
-    ];
-    let mut records = Vec::new();
-    for rods in all {
-        records.extend(rods.judge(context)?);
-    }
-    Ok(records)
+    Rods::judge_angles(context, &[0.0, Rods::SLOPE, 45.0], false)
+}
+
+/// The same for solids with exact surfaces, as terrain has them.
+pub fn surfaces(context: &CaseContext) -> Outcome {
+    Rods::judge_angles(context, &[Rods::SLOPE, 45.0], true)
 }
 
 impl Rods {
+    /// Angle of a slope of 1:2, degrees.
+    const SLOPE: f64 = 26.565_051_177_077_99;
+
+    /// Rods at these angles, and at a slope of 1:2 without the model.
+    fn judge_angles(context: &CaseContext, angles: &[f64], at_rest: bool) -> Outcome {
+        let with_model = angles.iter().map(|&angle| (angle, true));
+        let mut records = Vec::new();
+        for (angle, model) in with_model.chain([(Self::SLOPE, false)]) {
+            let rods = Self {
+                angle,
+                at_rest,
+                model,
+            };
+            records.extend(rods.judge(context)?);
+        }
+        Ok(records)
+    }
+
     /// Cross-section of the water, and its ratio to the perimeter.
     fn section() -> [f64; 2] {
         let area = f64::from(RODS[0] * RODS[1]) - ROD * ROD;
@@ -297,8 +308,15 @@ impl Rods {
             bulk.push(tank.totals()?.momentum[2] / (area * f64::from(RODS[2])));
         }
         let means = mean_and_stress(&bulk, each, h, force);
-        let trial = tank.trial("square rods that are blocks");
+        let trial = tank.trial(if self.at_rest {
+            "square rods that are solids"
+        } else {
+            "square rods that are blocks"
+        });
         let mut place = format!("at {:.1}° to the grid", self.angle);
+        if self.at_rest {
+            place = format!("exact surfaces {place}");
+        }
         if !self.model {
             place += ", no model";
         }
@@ -315,7 +333,7 @@ impl Rods {
         if self.model {
             scene.numerics.wall_model = scene::WallModel::WernerWengle;
         }
-        scene.numerics.sloping_faces = self.model;
+        scene.numerics.sloping_faces = self.model && !self.at_rest;
         scene.fluid.acceleration = numbers([0.0, 0.0, friction * friction / h]);
         let from_middle = format!("sqrt((x - {})^2 + (y - {})^2)", middle[0], middle[1]);
         let from_rod = format!(
@@ -334,6 +352,10 @@ impl Rods {
         for (component, text) in scene.initial.velocity.iter_mut().zip(velocity) {
             *component = text.parse()?;
         }
+        if self.at_rest {
+            scene.solids = self.solids(middle);
+            return Ok(scene);
+        }
         let shape = BlockShape::Box {
             size: [ROD, ROD, f64::from(RODS[2])],
         };
@@ -341,6 +363,23 @@ impl Rods {
         rod.rotation.angle = self.angle;
         scene.blocks.push(rod);
         Ok(scene)
+    }
+
+    /// The rod as what is behind one of its faces, without what is in front of the three others.
+    fn solids(&self, middle: [f64; 3]) -> Vec<Solid> {
+        let face = |n: u32| {
+            let (sin, cos) = (self.angle + 90.0 * f64::from(n)).to_radians().sin_cos();
+            let out = if n > 0 { -1.0 } else { 1.0 };
+            let [x, y, z] = middle;
+            let mut solid = Solid::new(Shape::HalfSpace {
+                point: [x + 0.5 * ROD * cos, y + 0.5 * ROD * sin, z],
+                normal: [out * cos, out * sin, 0.0],
+            });
+            solid.void = n > 0;
+            solid.surface = Some(SolidSurface::Exact);
+            solid
+        };
+        (0..4).map(face).collect()
     }
 }
 

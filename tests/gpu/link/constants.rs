@@ -9,7 +9,8 @@ use riprap::{
         link::{Linked, Program},
     },
     lattice::{
-        self, BrickKind, Collision, Force, Grid, SolidOperator, collide_stream, single_cells,
+        self, BrickKind, Collision, Force, Grid, SolidOperator, SurfaceCell, collide_stream,
+        single_cells,
     },
     psm,
     sph::{self, CellGrid, KERNELS, NeighbourSearch, Scheme, Side},
@@ -58,6 +59,10 @@ fn constants_of_the_lattice() {
     setup.solid_operator = Some(SolidOperator::Holdych);
     setup.wale = Some(0.5);
     setup.force = Force::Constant([1e-6; 3]);
+    setup.surface = vec![SurfaceCell {
+        cell: 0,
+        fraction: 0.5,
+    }];
     let streams = [
         BrickKind::All,
         BrickKind::Plain,

@@ -84,6 +84,25 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         ],
     ),
     (
+        "surface_friction",
+        &[
+            "surface_law",
+            "surface_shares",
+            "surface_viscosity",
+            "surface_friction",
+        ],
+        &[
+            "wall_cells",
+            "slopes",
+            "share_places",
+            "surface_fractions",
+            "near_cells",
+            "near_wall_viscosity",
+            "velocity_before_0",
+            "cell_pass",
+        ],
+    ),
+    (
         "pressure_face",
         &["hold_pressure"],
         &["cell_pass", "open_faces", "face_cells"],

@@ -38,7 +38,7 @@ pub struct Twin {
     /// Eddy viscosity of the step before by WALE alone.
     previous_nu_t: Vec<f64>,
     /// Cells that had a block in that step, for the wall model; empty before the first step.
-    blocks_before: Vec<bool>,
+    pub(super) blocks_before: Vec<bool>,
     links: Vec<[Link; Q]>,
 }
 
@@ -173,6 +173,7 @@ impl Twin {
         if let Some(model) = &self.wall_model {
             let u = &self.velocity_before();
             near_wall = model.viscosity(&self.domain, self.config.nu(), u, &self.blocks_before);
+            self.add_above_surface(&mut near_wall);
             self.add_near_blocks(&mut near_wall);
             self.add_above_slopes(&mut near_wall);
         }
@@ -269,7 +270,10 @@ impl Twin {
         };
         let how = (*operator, cells[cell].deep);
         let (f, force) = (&self.f[cell], self.force_at(cell));
-        let slides = self.sliding_velocity(cell, u_s);
+        let slides = match cells[cell].shares > 0.0 {
+            true => self.sliding_velocity(cell, u_s),
+            false => self.velocity_at_surface(cell),
+        };
         let mut change = solid_change(&self.config, how, f, force, tau, slides);
         self.apply_wall_stress(cell, u_s, &mut change);
         change
@@ -294,7 +298,7 @@ impl Twin {
             })
             .collect();
         if let Some((_, cells)) = &self.blocks {
-            self.blocks_before = cells.iter().map(|cell| cell.fraction > 0.0).collect();
+            self.blocks_before = cells.iter().map(|cell| cell.shares > 0.0).collect();
         }
         // The coming step evaluates the eddy viscosity from this velocity, or uses that of this one again.
         self.steps += 1;
@@ -309,6 +313,7 @@ impl Twin {
             model.hand_over(&self.domain, nu, &kept, blocks, &mut self.f);
         }
         self.previous_velocity = Some(kept);
+        self.exchange_at_surface();
     }
 
     /// Several steps.

@@ -78,7 +78,6 @@ pub fn twin_of(setup: &Setup) -> Twin {
         }
     }
     let mut twin = Twin::new(domain, config);
-    let blocks = |operator| (twin_operator(operator), at_rest);
     twin.wall_model = setup.wall_model.map(|law| twin::WallModel {
         law: match law {
             WallModel::WernerWengle => twin::WallLaw::WernerWengle,
@@ -88,7 +87,10 @@ pub fn twin_of(setup: &Setup) -> Twin {
         solid_roughness: setup.solid_roughness.clone(),
         on_blocks: setup.has_block_friction(),
         on_slopes: setup.has_sloping_friction(),
+        on_surfaces: setup.has_surface_friction(),
+        surface: at_rest.iter().map(|solid| solid.fraction).collect(),
     });
+    let blocks = |operator| (twin_operator(operator), at_rest);
     twin.blocks = setup.operator().map(blocks);
     twin.force = match &setup.force {
         Force::None => twin::Force::Uniform([0.0; 3]),

@@ -1,8 +1,9 @@
-//! A wall law on faces of blocks at an angle to the grid.
+//! A wall law on faces of blocks, and of exact surfaces at rest, at an angle to the grid.
 
 use super::lattice::{C, Q, W, direction};
 use super::wall_model::{norm, share};
 use super::{Solid, SolidOperator, Twin};
+use std::collections::{HashMap, HashSet};
 
 /// Solid fraction from which a cell counts as full.
 const FULL: f64 = 0.999;
@@ -26,6 +27,8 @@ struct Sloping {
     normal: [f64; 3],
     /// Axis nearest to the normal.
     axis: usize,
+    /// −1 or 1: the direction of the fluid along it.
+    out: i32,
     /// Whether the cell is the uppermost full one of its column.
     top: bool,
     /// Directions to cells that are not full.
@@ -36,6 +39,38 @@ struct Sloping {
     u: [f64; 3],
     friction: f64,
     share: f64,
+}
+
+/// Solids as columns of cells see them: the fraction in a cell, the fraction of a full one, and the cell next to one along an axis,
+/// if a column may pass through it.
+struct Columns<'a> {
+    fraction: &'a dyn Fn(usize) -> f64,
+    full: f64,
+    step: &'a dyn Fn(usize, usize, i32) -> Option<usize>,
+}
+
+impl Columns<'_> {
+    /// Height of the solid above the centre of a cell, where its column is solid, cut cells, and nothing.
+    fn height(&self, cell: usize, axis: usize, out: i32) -> Option<f64> {
+        let until = |out: i32, end: &dyn Fn(f64) -> bool| {
+            let mut passed = Vec::new();
+            let mut at = cell;
+            loop {
+                let fraction = (self.fraction)(at);
+                passed.push(fraction);
+                if end(fraction) {
+                    return Some(passed);
+                }
+                if passed.len() > PARTIAL {
+                    return None;
+                }
+                at = (self.step)(at, axis, out)?;
+            }
+        };
+        let up: f64 = until(out, &|e| e == 0.0)?.iter().sum();
+        let down = until(-out, &|e| e >= self.full)?;
+        Some(up - down[1..].iter().map(|e| 1.0 - e).sum::<f64>() - 0.5)
+    }
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -65,32 +100,8 @@ impl Twin {
         self.domain.index([moved(0), moved(1), moved(2)])
     }
 
-    /// Height of the solid above the centre of a cell, where its column is solid, cut cells, and nothing.
-    fn height(&self, cell: usize, axis: usize, out: i32) -> Option<f64> {
-        let until = |out: i32, end: &dyn Fn(f64) -> bool| {
-            let mut step = [0; 3];
-            step[axis] = out;
-            let mut passed = Vec::new();
-            let mut at = cell;
-            loop {
-                let fraction = self.solid_in(at).fraction;
-                passed.push(fraction);
-                if end(fraction) {
-                    return Some(passed);
-                }
-                if passed.len() > PARTIAL {
-                    return None;
-                }
-                at = self.diagonal(at, direction(step));
-            }
-        };
-        let up: f64 = until(out, &|e| e == 0.0)?.iter().sum();
-        let down = until(-out, &|e| e >= FULL)?;
-        Some(up - down[1..].iter().map(|e| 1.0 - e).sum::<f64>() - 0.5)
-    }
-
     fn sloping(&self, cell: usize) -> Option<Sloping> {
-        let model = self.wall_model.as_ref().filter(|model| model.on_slopes)?;
+        self.wall_model.as_ref().filter(|model| model.on_slopes)?;
         let (operator, _) = self.blocks.as_ref()?;
         let here = self.solid_in(cell);
         let sides = || (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]);
@@ -101,12 +112,41 @@ impl Twin {
         if self.domain.solid[cell] || !sides().all(inside) || self.is_at_aligned_face(cell) {
             return None;
         }
+        let columns = Columns {
+            fraction: &|at| self.solid_in(at).fraction,
+            full: FULL,
+            step: &|at, axis, out| self.domain.fluid_neighbour(at, axis, out),
+        };
+        // Columns of solid pass through every cell.
+        let solid = Columns {
+            step: &|at, axis, out| {
+                let mut step = [0; 3];
+                step[axis] = out;
+                Some(self.diagonal(at, direction(step)))
+            },
+            ..columns
+        };
+        let open = |_: usize| true;
+        self.face_near(cell, [&columns, &solid], &open, (here.velocity, 0.0))
+    }
+
+    /// The face near a cell. `columns`: those of the fluid and of the solid; `open`: whether a cell that is not full counts as open;
+    /// `solid`: its velocity and roughness.
+    fn face_near(
+        &self,
+        cell: usize,
+        [columns, heights]: [&Columns<'_>; 2],
+        is_open: &dyn Fn(usize) -> bool,
+        (velocity, roughness): ([f64; 3], f64),
+    ) -> Option<Sloping> {
+        let model = self.wall_model.as_ref()?;
+        let here = (columns.fraction)(cell);
         let mut less = [0.0; 3];
         let mut open = Vec::new();
         for q in 1..Q {
             let other = self.diagonal(cell, q);
-            let fraction = self.solid_in(other).fraction;
-            if fraction < FULL {
+            let fraction = (columns.fraction)(other);
+            if fraction < columns.full && is_open(other) {
                 open.push(q);
             }
             let order: i32 = C[q].iter().map(|c| c.abs()).sum();
@@ -119,15 +159,12 @@ impl Twin {
         let mut axes = [0, 1, 2];
         axes.sort_by(|a, b| less[*b].abs().total_cmp(&less[*a].abs()));
         let out_along = |axis: usize| if less[axis] > 0.0 { 1 } else { -1 };
-        let column = |axis| Some((axis, self.height(cell, axis, out_along(axis))?));
+        let column = |axis| Some((axis, heights.height(cell, axis, out_along(axis))?));
         let other = || (less[axes[1]].abs() > DIAGONAL * less[axes[0]].abs()).then_some(axes[1]);
         let (axis, height) = column(axes[0]).or_else(|| column(other()?))?;
         let out = out_along(axis);
         let slope = |along: usize| {
-            let side = |step| {
-                let other = self.domain.fluid_neighbour(cell, along, step)?;
-                self.height(other, axis, out)
-            };
+            let side = |step| heights.height((columns.step)(cell, along, step)?, axis, out);
             let (before, after) = (side(-1)?, side(1)?);
             let slope = 0.5 * (after - before);
             let is_flat = (before + after - 2.0 * height).abs() <= FLAT && slope.abs() < STEEP;
@@ -141,27 +178,33 @@ impl Twin {
         }
         let length = norm(normal);
         let normal = normal.map(|n| n / length);
-        let next = self.domain.fluid_neighbour(cell, axis, out)?;
-        let top = here.fraction >= FULL && self.solid_in(next).fraction < FULL;
+        let next = (columns.step)(cell, axis, out)?;
+        let top = here >= columns.full && (columns.fraction)(next) < columns.full;
+        if top && !is_open(next) {
+            return None;
+        }
         let mut above = Vec::new();
         let mut at = cell;
         for k in 1..=REACH {
-            at = self.domain.fluid_neighbour(at, axis, out)?;
-            if k as f64 > height + 2.0 && self.solid_in(at).fraction > 0.0 {
+            at = (columns.step)(at, axis, out)?;
+            let fraction = (columns.fraction)(at);
+            let above_face = k as f64 - height;
+            if above_face > 2.0 && fraction > 0.0 || above_face > 0.5 && self.domain.solid[at] {
                 return None;
             }
-            let distance = (k as f64 - height) / length;
+            let distance = above_face / length;
             above.push((at, distance));
             if distance >= DISTANCE {
                 let nu = self.config.nu();
                 let water = self.velocity_before_at(at);
-                let u = [0, 1, 2].map(|a| water[a] - here.velocity[a]);
+                let u = [0, 1, 2].map(|a| water[a] - velocity[a]);
                 let away = dot(u, normal);
                 let u = [0, 1, 2].map(|a| u[a] - away * normal[a]);
-                let friction = model.law.stress(norm(u), distance, nu).sqrt();
+                let friction = model.rough_stress(norm(u), distance, nu, roughness).sqrt();
                 return Some(Sloping {
                     normal,
                     axis,
+                    out,
                     top,
                     open,
                     above,
@@ -210,11 +253,194 @@ impl Twin {
     pub(super) fn sloping_gain(&self, cell: usize, leaving: &[f64; Q]) -> [f64; Q] {
         let solid = self.solid_in(cell);
         let found = self.sloping(cell).filter(|_| solid.fraction >= FULL);
-        let Some(face) = found.filter(|face| face.share > 0.0) else {
-            return [0.0; Q];
+        found.map_or([0.0; Q], |face| face.gain(solid.velocity, leaving))
+    }
+
+    /// Raises the eddy viscosity above such faces to that of the mixing length.
+    pub(super) fn add_above_slopes(&self, near_wall: &mut [f64]) {
+        let faces = (0..self.f.len()).filter_map(|cell| self.sloping(cell));
+        for face in faces.filter(|face| face.top) {
+            for &(cell, y) in &face.above {
+                if y > 1.0 || (y > 0.0 && self.solid_in(cell).fraction == 0.0) {
+                    near_wall[cell] = near_wall[cell].max(face.viscosity_at(y));
+                }
+            }
+        }
+    }
+}
+
+// Exact surfaces of solids at rest.
+impl Twin {
+    /// Fraction of a cell that solids at rest fill.
+    fn at_rest(&self, cell: usize) -> f64 {
+        match self.domain.solid[cell] {
+            true => 1.0,
+            false => {
+                let model = self.wall_model.as_ref();
+                let fraction = model.and_then(|model| model.surface.get(cell));
+                fraction.copied().unwrap_or(0.0)
+            }
+        }
+    }
+
+    /// The face of an exact surface at a cell that it cuts, or that is full and touches such a cell; no law acts with a block in the
+    /// five cells of the column from this one on.
+    fn face_at_rest(
+        &self,
+        cell: usize,
+        plane: &HashSet<usize>,
+        blocks: &[bool],
+    ) -> Option<Sloping> {
+        let step = |at: usize, axis: usize, out: i32| {
+            let mut c = [0; 3];
+            c[axis] = out;
+            self.inside(at, c)
         };
+        let columns = Columns {
+            fraction: &|at| self.at_rest(at),
+            full: 1.0,
+            step: &step,
+        };
+        let is_cut = |at: usize| (self.at_rest(at) % 1.0) > 0.0;
+        let around: Option<Vec<usize>> = (1..Q).map(|q| self.inside(cell, C[q])).collect();
+        let near_cut = around?.into_iter().any(is_cut);
+        let is_full = self.domain.solid[cell] && near_cut;
+        if !is_cut(cell) && !is_full {
+            return None;
+        }
+        let model = self.wall_model.as_ref()?;
+        let roughness = model.solid_roughness.get(cell).copied().unwrap_or(0.0);
+        let open = |at: usize| !plane.contains(&at);
+        let solid = ([0.0; 3], f64::from(roughness));
+        let mut face = self.face_near(cell, [&columns; 2], &open, solid)?;
+        let mut at = Some(cell);
+        for _ in 0..5 {
+            if at.is_some_and(|at| blocks.get(at) == Some(&true)) {
+                face.share = 0.0;
+            }
+            at = step(at?, face.axis, face.out);
+        }
+        Some(face)
+    }
+
+    /// Whether such faces may exist, with the fluid cells at plane walls, which have a model of their own.
+    fn plane_cells(&self) -> Option<HashSet<usize>> {
+        let model = self.wall_model.as_ref().filter(|model| model.on_surfaces)?;
+        Some(model.plane_cells(&self.domain).collect())
+    }
+
+    /// All such faces that a filter selects, by the blocks in the previous step.
+    fn faces_at_rest(&self, full: bool) -> Vec<(usize, Sloping)> {
+        let Some(plane) = self.plane_cells() else {
+            return Vec::new();
+        };
+        let blocks = &self.blocks_before;
+        let cells = (0..self.f.len()).filter(|&cell| self.domain.solid[cell] || !full);
+        cells
+            .filter_map(|cell| Some((cell, self.face_at_rest(cell, &plane, blocks)?)))
+            .collect()
+    }
+
+    /// The uppermost full cells of the columns at such faces, with the stress over the density and the share of the law.
+    pub fn surface_faces(&self) -> Vec<(usize, [f64; 3], f64)> {
+        let tops = self.faces_at_rest(true).into_iter();
+        tops.filter(|(_, face)| face.top)
+            .map(|(cell, face)| {
+                let part = face.friction.powi(2) / norm(face.u).max(1e-30);
+                (cell, face.u.map(|u| part * u), face.share)
+            })
+            .collect()
+    }
+
+    /// Sets the eddy viscosity near such faces where no wall has set it: by the nearest face.
+    pub(super) fn add_above_surface(&self, near_wall: &mut [f64]) {
+        let mut nearest: HashMap<usize, (f64, f64)> = HashMap::new();
+        for (_, face) in self.faces_at_rest(true) {
+            for &(cell, y) in face.above.iter().filter(|_| face.top) {
+                if y < 4.5 && (y > 1.0 || (y > 0.0 && self.at_rest(cell) == 0.0)) {
+                    let found = (y, face.viscosity_at(y));
+                    let kept = nearest.entry(cell).or_insert(found);
+                    if y < kept.0 {
+                        *kept = found;
+                    }
+                }
+            }
+        }
+        let model = self.wall_model.as_ref();
+        let walls = model.map(|model| model.cells_near_walls(&self.domain));
+        for (cell, (_, viscosity)) in nearest {
+            if walls.as_ref().is_some_and(|walls| !walls.contains(&cell)) {
+                near_wall[cell] = viscosity;
+            }
+        }
+    }
+
+    /// Applies the stress to the populations that full cells have returned.
+    pub(super) fn exchange_at_surface(&mut self) {
+        for (cell, face) in self.faces_at_rest(true) {
+            let to = |q: usize| self.diagonal(cell, q);
+            let leaving = std::array::from_fn(|q| match face.open.contains(&q) {
+                true => self.f[to(q)][q],
+                false => 0.0,
+            });
+            let gain = face.gain([0.0; 3], &leaving);
+            for q in face.open {
+                let other = self.diagonal(cell, q);
+                self.f[other][q] += gain[q];
+            }
+        }
+    }
+
+    /// The velocity of the solid for a cell without block that such a face cuts.
+    pub(super) fn velocity_at_surface(&self, cell: usize) -> [f64; 3] {
+        let face = || {
+            let blocks = self.blocks.as_ref().map(|(_, cells)| cells);
+            let blocks: Vec<bool> = blocks?.iter().map(|cell| cell.shares > 0.0).collect();
+            self.face_at_rest(cell, &self.plane_cells()?, &blocks)
+        };
+        let is_cut = self.at_rest(cell) > 0.0 && !self.domain.solid[cell];
+        let Some(face) = is_cut.then(face).flatten() else {
+            return [0.0; 3];
+        };
+        let f = &self.f[cell];
+        let rho = 1.0 + f.iter().sum::<f64>();
+        let u = [0, 1, 2].map(|a| (0..Q).map(|q| c(q)[a] * f[q]).sum::<f64>() / rho);
+        let away = dot(u, face.normal);
+        [0, 1, 2].map(|a| face.share * (u[a] - away * face.normal[a]))
+    }
+
+    /// The cell next to one, across periodic faces too; none outside the domain.
+    fn inside(&self, cell: usize, c: [i32; 3]) -> Option<usize> {
+        let (at, n) = (self.domain.position(cell), self.domain.cells);
+        let mut to = at;
+        for a in 0..3 {
+            let moved = at[a] as i32 + c[a];
+            let leaves = !(0..n[a] as i32).contains(&moved);
+            if leaves && !matches!(self.domain.faces[2 * a], super::domain::Face::Periodic) {
+                return None;
+            }
+            to[a] = moved.rem_euclid(n[a] as i32) as usize;
+        }
+        Some(self.domain.index(to))
+    }
+}
+
+impl Sloping {
+    /// Eddy viscosity at a distance from the face by the mixing length.
+    fn viscosity_at(&self, y: f64) -> f64 {
+        let at = (y - 0.5).clamp(0.0, 4.0);
+        let n = at as usize;
+        let taper = TAPER[n] + at.fract() * (TAPER[n + 1] - TAPER[n]);
+        taper * 0.4 * y * self.friction * self.share
+    }
+
+    /// What the populations that leave a full cell of a solid with this velocity gain.
+    fn gain(&self, velocity: [f64; 3], leaving: &[f64; Q]) -> [f64; Q] {
+        if self.share == 0.0 {
+            return [0.0; Q];
+        }
         let along = {
-            let n = face.normal;
+            let n = self.normal;
             let helper = if n[0].abs() > 0.6 {
                 [0.0, 1.0, 0.0]
             } else {
@@ -224,21 +450,20 @@ impl Twin {
             let first = first.map(|v| v / norm(first));
             [first, cross(n, first)]
         };
-        let area = if face.top {
-            1.0 / face.normal[face.axis].abs()
+        let area = if self.top {
+            1.0 / self.normal[self.axis].abs()
         } else {
             0.0
         };
-        let stress = area * face.friction.powi(2) / norm(face.u).max(1e-30);
+        let stress = area * self.friction.powi(2) / norm(self.u).max(1e-30);
         let wanted = along.map(|t| {
-            let relative = |q: &usize| {
-                (leaving[*q] - 3.0 * W[*q] * dot(c(*q), solid.velocity)) * dot(c(*q), t)
-            };
-            -2.0 * face.open.iter().map(relative).sum::<f64>() - stress * dot(face.u, t)
+            let relative =
+                |q: &usize| (leaving[*q] - 3.0 * W[*q] * dot(c(*q), velocity)) * dot(c(*q), t);
+            -2.0 * self.open.iter().map(relative).sum::<f64>() - stress * dot(self.u, t)
         });
         let element = |a: [f64; 3], b: [f64; 3]| -> f64 {
             let each = |q: &usize| W[*q] * dot(c(*q), a) * dot(c(*q), b);
-            face.open.iter().map(each).sum()
+            self.open.iter().map(each).sum()
         };
         let (a, d) = (element(along[0], along[0]), element(along[1], along[1]));
         let b = element(along[0], along[1]);
@@ -253,24 +478,8 @@ impl Twin {
             solved[1] += part * y;
         }
         let m = [0, 1, 2].map(|i| solved[0] * along[0][i] + solved[1] * along[1][i]);
-        let limit = (12.0 * norm(face.u) / norm(m).max(1e-30)).min(1.0);
-        let gain = |q: usize| W[q] * dot(c(q), m) * face.share * limit;
-        std::array::from_fn(|q| if face.open.contains(&q) { gain(q) } else { 0.0 })
-    }
-
-    /// Raises the eddy viscosity above such faces to that of the mixing length.
-    pub(super) fn add_above_slopes(&self, near_wall: &mut [f64]) {
-        let faces = (0..self.f.len()).filter_map(|cell| self.sloping(cell));
-        for face in faces.filter(|face| face.top) {
-            for (cell, y) in face.above {
-                if y > 1.0 || (y > 0.0 && self.solid_in(cell).fraction == 0.0) {
-                    let at = (y - 0.5).clamp(0.0, 4.0);
-                    let n = at as usize;
-                    let taper = TAPER[n] + at.fract() * (TAPER[n + 1] - TAPER[n]);
-                    let found = taper * 0.4 * y * face.friction * face.share;
-                    near_wall[cell] = near_wall[cell].max(found);
-                }
-            }
-        }
+        let limit = (12.0 * norm(self.u) / norm(m).max(1e-30)).min(1.0);
+        let gain = |q: usize| W[q] * dot(c(q), m) * self.share * limit;
+        std::array::from_fn(|q| if self.open.contains(&q) { gain(q) } else { 0.0 })
     }
 }

@@ -26,6 +26,10 @@ pub struct WallModel {
     pub on_blocks: bool,
     /// Whether it also acts on faces at an angle to the grid.
     pub on_slopes: bool,
+    /// Whether it acts on exact surfaces at rest at any angle.
+    pub on_surfaces: bool,
+    /// Fraction of each cell that solids at rest fill in part; empty if there are none.
+    pub surface: Vec<f64>,
 }
 
 /// A cell whose face `axis`, `side` is a plane wall.
@@ -120,6 +124,11 @@ impl WallModel {
             behind[wall.axis] = (at + [n - 1, 1][wall.side]) % n;
             self.solid_roughness[domain.index(behind)].into()
         };
+        self.rough_stress(u, y, nu, k_s)
+    }
+
+    /// The same for a roughness, cells.
+    pub(super) fn rough_stress(&self, u: f64, y: f64, nu: f64, k_s: f64) -> f64 {
         let smooth = self.law.stress(u, y, nu);
         if k_s == 0.0 {
             return smooth;
@@ -128,8 +137,8 @@ impl WallModel {
         smooth.max(rough * rough)
     }
 
-    /// The cells at plane walls with five cells of fluid in front of the wall, each with whether a block is in one of these.
-    fn walls(domain: &Domain, blocks: &[bool]) -> Vec<(Wall, bool)> {
+    /// The cells at plane walls with five cells of plain fluid in front of the wall, each with whether a block is in one of these.
+    fn walls(&self, domain: &Domain, blocks: &[bool]) -> Vec<(Wall, bool)> {
         let mut walls = Vec::new();
         for axis in 0..3 {
             for side in 0..2 {
@@ -141,15 +150,26 @@ impl WallModel {
                         Link::Moving(_) => false,
                     });
                     if plane && wall.layer(domain, 4).is_some() {
-                        let mut column = (0..5).filter_map(|layer| wall.layer(domain, layer));
-                        let blocked =
-                            column.any(|cell| blocks.get(cell).is_some_and(|block| *block));
-                        walls.push((wall, blocked));
+                        let marked = |cells: &dyn Fn(usize) -> bool| {
+                            (0..5)
+                                .filter_map(|layer| wall.layer(domain, layer))
+                                .any(cells)
+                        };
+                        if !marked(&|cell| self.surface.get(cell).is_some_and(|e| *e > 0.0)) {
+                            let block = |cell: usize| blocks.get(cell) == Some(&true);
+                            walls.push((wall, marked(&block)));
+                        }
                     }
                 }
             }
         }
         walls
+    }
+
+    /// The fluid cells at these walls.
+    pub(super) fn plane_cells(&self, domain: &Domain) -> impl Iterator<Item = usize> {
+        let walls = self.walls(domain, &[]).into_iter();
+        walls.map(|(wall, _)| wall.cell)
     }
 
     /// Friction on a wall: the tangential velocity that the law reads, the stress over the density, and the share of the model.
@@ -166,22 +186,40 @@ impl WallModel {
         (along, stress, share(stress.sqrt(), nu))
     }
 
+    /// The cells up to four layers from these walls, each with its nearest wall, the layer, and whether a block is near the wall.
+    fn near_walls(&self, domain: &Domain, blocks: &[bool]) -> Vec<(usize, Wall, usize, bool)> {
+        let mut found = Vec::new();
+        let mut taken = HashSet::new();
+        let mut growing = self.walls(domain, blocks);
+        for layer in 0..4 {
+            growing.retain(|(wall, blocked)| {
+                let cell = wall.layer(domain, layer).expect("five cells are fluid");
+                let own = taken.insert(cell);
+                if own {
+                    found.push((cell, *wall, layer, *blocked));
+                }
+                own
+            });
+        }
+        found
+    }
+
+    /// The cells whose smallest eddy viscosity these walls give.
+    pub(super) fn cells_near_walls(&self, domain: &Domain) -> HashSet<usize> {
+        let near = self.near_walls(domain, &[]).into_iter();
+        near.map(|(cell, ..)| cell).collect()
+    }
+
     /// Smallest eddy viscosity of each cell: κ y u_τ of the nearest wall, tapered over four cells. `blocks` marks the cells with
     /// a block in the previous step; it may be empty.
     pub fn viscosity(&self, domain: &Domain, nu: f64, u: &[[f64; 3]], blocks: &[bool]) -> Vec<f64> {
         let mut found = vec![0.0; domain.cell_count()];
-        let mut taken = HashSet::new();
-        let mut growing = Self::walls(domain, blocks);
-        for (layer, taper) in [1.0, 0.75, 0.4, 0.15].into_iter().enumerate() {
-            growing.retain(|(wall, blocked)| {
-                let cell = wall.layer(domain, layer).expect("five cells are fluid");
-                let own = taken.insert(cell);
-                if own && !blocked {
-                    let (_, stress, part) = self.friction(wall, domain, nu, u);
-                    found[cell] = taper * 0.4 * (layer as f64 + 0.5) * stress.sqrt() * part;
-                }
-                own
-            });
+        for (cell, wall, layer, blocked) in self.near_walls(domain, blocks) {
+            if !blocked {
+                let (_, stress, part) = self.friction(&wall, domain, nu, u);
+                let taper = [1.0, 0.75, 0.4, 0.15][layer];
+                found[cell] = taper * 0.4 * (layer as f64 + 0.5) * stress.sqrt() * part;
+            }
         }
         found
     }
@@ -196,7 +234,7 @@ impl WallModel {
         blocks: &[bool],
         f: &mut [[f64; Q]],
     ) {
-        for (wall, blocked) in Self::walls(domain, blocks) {
+        for (wall, blocked) in self.walls(domain, blocks) {
             let (along, stress, part) = self.friction(&wall, domain, nu, u);
             if part == 0.0 || blocked {
                 continue;

@@ -1,0 +1,31 @@
+// Asmuth et al. 2021, Phys. Fluids 33:105111: the law of the wall at a face of a solid at an angle to the grid.
+// needs cell_velocities, law_of_the_wall, scalar_grid
+
+// A cell at such a face.
+struct SlopingCell {
+    // The face x-, x+, ... nearest to the sloping one, SLOPE_TOP if the cell is the uppermost full one of its column, and from the
+    // bit SLOPE_CELLS on the number of cells to the one whose velocity the law reads; or NO_SLOPE.
+    slope: u32,
+    // Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
+    open: u32,
+    // Scalar of the cell whose velocity the law reads, and its distance from the face, cells.
+    sample: u32,
+    distance: f32,
+    normal: vec3<f32>,
+    // Friction velocity, and the tangential velocity that the law has read, relative to the solid.
+    friction: f32,
+    u: vec3<f32>,
+}
+
+const NO_SLOPE = 0xffffu;
+const SLOPE_TOP = 8u;
+const SLOPE_CELLS = 4u;
+
+// Result of the law at such a face of a solid with this velocity.
+fn law_at_slope(face: SlopingCell, velocity: vec3<f32>, roughness: f32) -> SlopingCell {
+    var found = face;
+    let u = vec3(read_velocity(0u, face.sample), read_velocity(1u, face.sample), read_velocity(2u, face.sample)) - velocity;
+    found.u = u - dot(u, face.normal) * face.normal;
+    found.friction = sqrt(law_of_the_wall(length(found.u), face.distance, roughness));
+    return found;
+}

@@ -209,6 +209,14 @@ impl DeformingBlocks {
         }
     }
 
+    /// Spin of a face of a block with this unit normal, rad/s, without that of a deformable block about the normal.
+    pub fn face_spin(&self, body: &Body, state: &State, normal: DVec3) -> DVec3 {
+        match self.of(body) {
+            None => state.spin,
+            Some((_, strain)) => -normal.cross(strain.gradient().transpose() * normal),
+        }
+    }
+
     /// Upper bound of the displacement of all points of a block by its deformation since the pairs were found, m.
     pub fn moved_by_strain(&self, body: &Body) -> Option<f64> {
         let (_, strain) = self.of(body)?;
@@ -281,8 +289,11 @@ impl DeformingBlocks {
                     continue;
                 }
                 let arm = at - states[block as usize].centre;
-                // A torque is the skew part of a moment.
-                let moment = outer(contact.force.total(), arm) + couple(contact.force.couple());
+                // A torque is the skew part of a moment. The springs of a bond act along its normal: their moment is in power with
+                // the rotation of the normal, to which shear of the block contributes.
+                let moment = outer(contact.force.total(), arm)
+                    + couple(contact.force.moment)
+                    + outer(contact.normal, contact.normal.cross(contact.force.bending));
                 self.strains[k as usize].moment += moment * sign;
             }
         }

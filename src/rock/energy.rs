@@ -195,7 +195,12 @@ fn work(chunk: &mut Chunk, all: &BodyStates<'_>, dt: f64) {
         let velocity = all.velocity(second, contact.pressure_centre - contact.image_shift)
             - all.velocity(first, contact.pressure_centre);
         let spin = all.states[second].spin - all.states[first].spin;
-        let spring = -force.spring.dot(velocity) - force.bending.dot(spin);
+        let of_face = |n: usize| {
+            let (body, state) = (&all.bodies[n], &all.states[n]);
+            all.deforming.face_spin(body, state, contact.normal)
+        };
+        let of_bond = of_face(second) - of_face(first);
+        let spring = -force.spring.dot(velocity) - force.bending.dot(of_bond);
         let dashpots = force.dashpot.dot(velocity) + force.moment.dot(spin);
         chunk.dashpots.push(dashpots);
         contact.stored += 0.5 * dt * (contact.power + spring) - force.friction;

@@ -5,7 +5,10 @@ use glam::{DMat3, DQuat, DVec3};
 use kit::{assert_near, assert_relative};
 use riprap::{
     geometry::{Load, skew},
-    rock::{Block, Blocks, Deformable, FixedPoint, PointLoad, Setup, Sleep, law::Elastic},
+    rock::{
+        Block, Blocks, Deformable, FixedPoint, PointLoad, Setup, Sleep,
+        law::{Elastic, Joint},
+    },
 };
 
 const DENSITY: f64 = 2500.0;
@@ -164,6 +167,36 @@ fn wall() -> Setup {
         });
     }
     elastic(setup(list, joint(1e7, 30.0)), 1e8)
+}
+
+/// Two bonded slabs, one of which starts with a spin. The springs of the bond follow the normals of its faces, which also turn as a
+/// slab shears, and do as much work as they store.
+#[test]
+fn bonded_slabs_keep_their_energy() {
+    let slab =
+        |x: f64| Block::new(format!("{x}"), cuboid(0.3, 1.0, 1.0), DVec3::X * x).deformable();
+    let turning = Block {
+        spin: DVec3::Y * 1e-3,
+        ..slab(0.0)
+    };
+    let bond = Joint {
+        tensile_strength: 1e9,
+        cohesion: 1e9,
+        damping: 0.0,
+        ..joint(4e10, 35.0)
+    };
+    let mut setup = elastic(setup(vec![turning, slab(0.3)], bond), 1e10);
+    setup.gravity = DVec3::ZERO;
+    let mut blocks = blocks(setup);
+    let energy = |blocks: &Blocks| {
+        let ledger = blocks.ledger();
+        ledger.kinetic + ledger.strain + ledger.elastic
+    };
+    let start = energy(&blocks);
+    for n in 1..=30 {
+        run(&mut blocks, 0.01 * f64::from(n));
+        assert_relative(energy(&blocks), start, 1e-2);
+    }
 }
 
 #[test]

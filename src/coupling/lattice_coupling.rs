@@ -248,6 +248,7 @@ impl LatticeCoupling {
         self.read_loads(true).await?;
         Ok(CouplingState {
             load_average: self.load_average.clone(),
+            face_loads: self.face_loads.clone(),
             tiled: self.cells.tiled(),
         })
     }
@@ -261,6 +262,7 @@ impl LatticeCoupling {
         let last = state.load_average.last.as_ref();
         if state.tiled.len() == self.in_fluid
             && known(state.load_average.sum.len())
+            && known(state.face_loads.len())
             && last.is_none_or(|(_, loads)| loads.len() == self.in_fluid)
         {
             return Ok(());
@@ -277,7 +279,7 @@ impl LatticeCoupling {
     pub fn restore(&mut self, state: &CouplingState) {
         self.load_readback.discard();
         self.face_readback.discard();
-        self.face_loads.clear();
+        self.face_loads.clone_from(&state.face_loads);
         self.load_average.clone_from(&state.load_average);
         self.cells.tile(&state.tiled);
         self.placed = None;
@@ -289,6 +291,8 @@ impl LatticeCoupling {
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct CouplingState {
     load_average: LoadAverage,
+    /// Loads on the faces of each block at the last exchange.
+    face_loads: Vec<Vec<FaceLoad>>,
     /// Pose of each block in the fluid at its last tile search: the tiles determine the order of summation, and thus the
     /// rounding of loads.
     tiled: Vec<Option<Pose>>,

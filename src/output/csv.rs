@@ -167,7 +167,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a file of comma-separated numbers under one line of names.
+    /// Reads a file of comma-separated numbers under one line of names. Empty lines do not count.
     ///
     /// # Errors
     /// [`Error::File`], with the line, if the file cannot be read, a row does not have one
@@ -182,7 +182,11 @@ impl Table {
             .split(',')
             .map(|name| (name.trim().to_owned(), Vec::new()))
             .collect();
-        for (number, line) in lines.enumerate() {
+        // Other programs end files with empty lines.
+        let rows = lines
+            .enumerate()
+            .filter(|(_, line)| !line.trim().is_empty());
+        for (number, line) in rows {
             let place = number + 2;
             let values: Vec<&str> = line.split(',').collect();
             if values.len() != columns.len() {

@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3};
 
 /// A plane face of a block at its present position.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlaneFace {
     /// Number of the part among those of the block.
     pub part: usize,
@@ -22,6 +23,7 @@ pub struct PlaneFace {
 /// Load of a fluid on one plane face of a block, from the layer of cells along it; coarse for a face of
 /// few cells. A face without a fluid cell along it has no load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct FaceLoad {
     /// The face.
     pub face: PlaneFace,

@@ -10,11 +10,13 @@ use crate::units::Units;
 /// operator here is stable at low viscosity.
 const MOST_MACH: f64 = 0.3;
 /// Above this Mach number the error of compressibility exceeds 2 %.
-const HIGH_MACH: f64 = 0.15;
+pub const HIGH_MACH: f64 = 0.15;
 /// Above this relative change of density the fluid's weight affects the flow: drag and inertia change by as much.
 const HIGH_COMPRESSION: f64 = 0.05;
 /// Range of τ − ½ in which the rates of Suga et al. (2015) are linearly stable at rest.
 pub const SUGA_EXCESS: std::ops::RangeInclusive<f64> = 4e-4..=0.059;
+/// Below this τ − ½ flows with one magic parameter everywhere, without lower bounds of the odd rates, may become unsteady.
+const LAMBDA_EXCESS: f64 = 0.02;
 /// Below this τ − ½ the viscosity is lost in the rounding of f32.
 const LEAST_TAU: f64 = 1e-6;
 /// Above this τ half-way walls and the discretisation lose accuracy quickly.
@@ -67,6 +69,7 @@ impl Scene {
         adviser.mach()?;
         adviser.low_tau()?;
         adviser.suga()?;
+        adviser.lambda();
         adviser.high_tau()?;
         adviser.bgk();
         adviser.cell_reynolds();
@@ -105,6 +108,19 @@ impl Adviser<'_> {
             place: place.into(),
             message,
         });
+    }
+
+    /// Warns of the odd rates of one magic parameter at low viscosities.
+    fn lambda(&mut self) {
+        if self.scene.numerics.lambda.is_some() && self.excess < LAMBDA_EXCESS {
+            let message = format!(
+                "sets the odd rates without a lower bound, and τ − ½ is {:.2e}, below {LAMBDA_EXCESS}: laminar flows may become \
+                 unsteady; remove it, or use viscosity ≥ {:.3e} m²/s at the same time step",
+                self.excess,
+                self.scene.fluid.viscosity * LAMBDA_EXCESS / self.excess
+            );
+            self.warn("numerics.lambda", message);
+        }
     }
 
     /// Time step, s, for which τ − ½ is `wanted`.

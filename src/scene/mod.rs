@@ -69,7 +69,7 @@ use serde::Deserialize;
 use crate::error::Result;
 use rules::refuse;
 
-pub use advice::{Advice, SUGA_EXCESS, Warning};
+pub use advice::{Advice, HIGH_MACH, SUGA_EXCESS, Warning};
 pub use block_shape::{BlockShape, PlaneFace};
 pub use blocks::{Block, Motion, Part, Repeat, Rotation};
 pub use boundaries::{Boundaries, Boundary, Turbulence};

@@ -6,8 +6,11 @@ use toml::de::DeTable;
 
 use super::rules::{distinct, inside, interval, names, ordered, positive, refuse};
 use super::tagged::Kind;
-use super::{Axis, Direction, Field, Scene};
+use super::{Axis, Direction, Field, Scene, WallModel};
 use crate::error::Result;
+
+/// Most points of a line.
+const MOST_POINTS: u32 = 1_000_000;
 
 /// A measurement, written as CSV; the forces on a `block`, the level of a `gauge`, a `run_up` and the volume of water in a
 /// `box` are also plotted over time, as PNG.
@@ -218,6 +221,15 @@ impl Scene {
                     ),
                 );
             }
+            // Some file systems are not case-sensitive.
+            if self.numerics.wall_model != WallModel::None
+                && probe.name.eq_ignore_ascii_case("walls")
+            {
+                return refuse(
+                    format!("probes[{index}].name"),
+                    "`walls` is the table of numerics.wall_model; give it another name",
+                );
+            }
         }
         Ok(())
     }
@@ -256,6 +268,12 @@ impl Scene {
                     return refuse(
                         format!("{key}.count"),
                         format!("a line has at least 2 points, not {count}"),
+                    );
+                }
+                if *count > MOST_POINTS {
+                    return refuse(
+                        format!("{key}.count"),
+                        format!("a line has at most {MOST_POINTS} points, not {count}"),
                     );
                 }
                 Ok(())

@@ -9,6 +9,9 @@ use crate::error::Result;
 use crate::gpu::Processor;
 use crate::units::Units;
 
+/// Longest simulated time, s: thirty thousand years. Beyond it the number of steps overflows.
+const LONGEST: f64 = 1e12;
+
 /// Length of the run. Exactly one of `duration` and `steps` is given.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -84,6 +87,10 @@ impl Scene {
             (None, None) => refuse(
                 "run",
                 "the run has no end; give `duration` (s) or `steps` (a whole number)",
+            ),
+            (Some(duration), None) if duration > LONGEST => refuse(
+                "run.duration",
+                format!("{duration:e} s is longer than {LONGEST:e} s; give the time in seconds"),
             ),
             (Some(duration), None) => positive("run.duration", duration, "s"),
             (None, Some(0)) => refuse("run.steps", "the run has no steps; give at least 1"),

@@ -68,6 +68,9 @@ fn points(path: &Path) -> Result<String, String> {
     {
         return refused("its first line is of numbers; give the names of the columns there");
     }
+    if x.is_empty() {
+        return refused("it has no numbers under its line of names");
+    }
     let pairs: Vec<String> = x
         .iter()
         .zip(y)

@@ -152,6 +152,31 @@ fn a_restart_shows_what_the_run_showed() {
     }
 }
 
+/// Between two exchanges the loads on faces are those of the last one.
+#[test]
+fn a_restart_between_exchanges_has_the_loads_on_faces() {
+    let text = format!(
+        r#"{}
+        name = "fixed"
+        [[probes]]
+        name = "loads"
+        kind = "block"
+        block = "fixed"
+        faces = true"#,
+        scene(3, false)
+    );
+    let mut whole = World::new(&text);
+    for cut in [7, 8, 9] {
+        whole.advance(cut - whole.sim.step());
+        let bits = whole.bits();
+        let faces = |world: &World| world.sim.coupled().unwrap().face_loads(3).to_vec();
+        assert_eq!(faces(&whole).len(), 6);
+        let mut fresh = World::new(&text);
+        fresh.load(&bits);
+        assert_eq!(faces(&fresh), faces(&whole), "cut at {cut}");
+    }
+}
+
 fn lattice(checkpoint: &mut Checkpoint) -> &mut LatticeState {
     match &mut checkpoint.fluid {
         Some(FluidState::Lattice(state)) => state,

@@ -219,7 +219,7 @@ fn formulas_take_series_from_files_beside_the_scene() {
     "#;
     let read_from = |scene: &str| Scene::from_toml(scene, &folder, "river.toml");
     let read = || read_from(scene);
-    write("time,speed\n0,1\n10,2\n20,0.5\n");
+    write("time,speed\n0,1\n10,2\n20,0.5\n\n");
     let read_scene = read().unwrap();
     let titled = scene.replace(
         "domain =",
@@ -243,6 +243,7 @@ fn formulas_take_series_from_files_beside_the_scene() {
         ("time,a\n0,one\n", vec!["line 2", "`one` is not a number"]),
         ("time,a\n5,1\n0,1\n", vec!["ascend, and 0 follows 5"]),
         ("time,a\n5,1\n", vec!["at least two points"]),
+        ("time,a\n", vec!["flow.csv: it has no numbers"]),
     ] {
         write(text);
         assert_contains(read().unwrap_err().to_string(), &parts);

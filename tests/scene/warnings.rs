@@ -83,6 +83,24 @@ fn water_that_given_pressures_compress_is_warned_of() {
     warned(duct(0.01, waves).0, &["boundaries"]);
 }
 
+/// τ − ½ = 3 ν Δt/Δx² is 0.019 and 0.021.
+#[test]
+fn one_magic_parameter_at_a_low_viscosity_is_warned_of() {
+    let advice = |viscosity: f64| {
+        let scene = read(&format!(
+            "[domain]\nsize = [0.02, 0.01, 0.01]\ncell = 1e-3\n[run]\nsteps = 1\n[fluid]\nviscosity = {viscosity}\n\
+             [numerics]\ntime_step = 1e-3\nvelocity_scale = 1e-3\nlambda = 0.1875\n"
+        ))
+        .unwrap();
+        scene.advise(&Units::of(&scene).unwrap())
+    };
+    warned(
+        advice(0.019e-3 / 3.0),
+        &["numerics.lambda", "6.667e-6 m²/s"],
+    );
+    assert_eq!(advice(0.021e-3 / 3.0).unwrap(), []);
+}
+
 /// With 16-bit storage the friction of a surface that cuts cells is not that of a wall.
 #[test]
 fn a_wall_model_without_effect_on_an_exact_surface_is_told() {

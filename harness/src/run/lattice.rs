@@ -5,6 +5,7 @@ use riprap::{
     Result,
     coupling::Exchanges,
     lattice::{bytes_per_cell, bytes_per_step},
+    scene::HIGH_MACH,
     simulation::Simulation,
 };
 use serde::Serialize;
@@ -78,6 +79,20 @@ impl LatticeSummary {
             bandwidth_share: rate * self.bytes_per_step as f64 / self.bandwidth,
             ..self.clone()
         }
+    }
+
+    /// A warning if the fluid became faster than the time step is for.
+    pub fn warning(&self, log: &RunLog) -> Option<String> {
+        (self.max_mach > HIGH_MACH).then(|| {
+            format!(
+                "numerics.velocity_scale: the largest speed of the fluid, {:.3e} m/s, has the Mach number {:.3} on the lattice, above \
+                 {HIGH_MACH}: errors of compressibility near {:.1} %; use velocity_scale = {:.3e}",
+                log.max_speed,
+                self.max_mach,
+                100.0 * self.max_mach * self.max_mach,
+                log.max_speed
+            )
+        })
     }
 
     /// The summary at the end of `run`.

@@ -17,7 +17,7 @@ pub struct WallModelSummary {
     pub y_plus_mean: f64,
     /// Largest y⁺ of these cells.
     pub y_plus_max: f64,
-    /// Mean magnitude of the stress, Pa, where the law gives all of it.
+    /// Mean magnitude of the stress, Pa, where the law gives all of it, or on all these faces if it does so nowhere.
     pub stress_mean: f64,
 }
 
@@ -28,14 +28,19 @@ impl WallModelSummary {
         if walls.is_empty() {
             return None;
         }
-        let modelled = || walls.iter().filter(|wall| wall.share == 1.0);
+        let whole: Vec<_> = walls.iter().filter(|wall| wall.share == 1.0).collect();
+        // On a smooth laminar flow the law acts nowhere, and the walls are no-slip.
+        let modelled = match whole.is_empty() {
+            true => walls.iter().collect(),
+            false => whole,
+        };
         let size = |wall: &WallFriction| wall.stress.iter().map(|s| s * s).sum::<f64>().sqrt();
         Some(Self {
             area_share: frictions.area_share,
             block_area_share: frictions.block_area_share,
             y_plus_mean: mean(walls.iter().map(|wall| wall.y_plus)),
             y_plus_max: walls.iter().map(|wall| wall.y_plus).fold(0.0, f64::max),
-            stress_mean: mean(modelled().map(size)),
+            stress_mean: mean(modelled.into_iter().map(size)),
         })
     }
 }

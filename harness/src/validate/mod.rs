@@ -154,7 +154,7 @@ pub const CASES: &[Case] = &[
     short("wall-model/rough-channel", "water over a rough bed, with a wall model (Keulegan 1938)", wall_model::rough_channel),
     long("wall-model/blocks", "turbulent channel between plates that are blocks, with a wall model (Lee & Moser 2015)", wall_model::blocks),
     long("wall-model/rods", "stream along square rods at angles to the grid, with a wall model (Lee & Moser 2015)", wall_model::rods),
-    long("wall-model/surfaces", "stream along square rods with exact surfaces at angles to the grid, with a wall model (Lee & Moser 2015)", wall_model::surfaces),
+    long("wall-model/surfaces", "stream along rods with oblique exact surfaces, with a wall model (Lee & Moser 2015)", wall_model::surfaces),
     short("separation/laminar-step", "laminar flow behind a step (Erturk 2008)", separation::laminar_step),
     long("separation/step", "turbulent flow behind a step, with a wall model (Kopera et al. 2017)", separation::step),
     long("separation/cube", "turbulent flow around a cube on the floor, with a wall model (Martinuzzi & Tropea 1993)", separation::cube),

@@ -69,7 +69,7 @@ pub struct Checkpoint {
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub enum FluidState {
     /// On a lattice.
-    Lattice(LatticeState),
+    Lattice(Box<LatticeState>),
     /// Free water.
     Particles(WaterState),
 }

@@ -14,7 +14,7 @@ impl Simulation {
     pub async fn checkpoint(&mut self) -> Result<Checkpoint> {
         // The coupling of a lattice waits for loads in flight, so the fluid is read before the blocks.
         let fluid = match &mut self.fluid {
-            Some(Fluid::Lattice(fluid)) => Some(FluidState::Lattice(fluid.state().await?)),
+            Some(Fluid::Lattice(fluid)) => Some(FluidState::Lattice(fluid.state().await?.into())),
             Some(Fluid::Particles(fluid)) => {
                 Some(FluidState::Particles(fluid.state(&self.scene).await?))
             }

@@ -127,7 +127,7 @@ fn checkpoint(populations: Populations) -> Checkpoint {
         step: populations.step,
         time_step: 1e-3,
         rock: None,
-        fluid: Some(FluidState::Lattice(LatticeState {
+        fluid: Some(FluidState::Lattice(Box::new(LatticeState {
             cell: 1e-2,
             populations,
             inside: Inside {
@@ -137,7 +137,7 @@ fn checkpoint(populations: Populations) -> Checkpoint {
             coupling: None,
             sampling: None,
             flow_control: None,
-        })),
+        }))),
     }
 }
 

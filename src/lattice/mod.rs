@@ -86,7 +86,7 @@ pub use spread::{PsmAccess, psm_storage};
 pub use stages::Stages;
 pub use start::State;
 pub use statistics::{Statistic, Statistics, StatisticsPass, StatisticsState};
-pub use surface_friction::{SlopingCell, SurfaceFaces};
+pub use surface_friction::SurfaceFaces;
 pub use synthetic_turbulence::{FaceMode, FourierMode, SyntheticTurbulence, TurbulentFace};
 pub use traffic::{bytes_per_cell, bytes_per_step};
 pub use wall_model::{WallCell, WallStress, Walls};

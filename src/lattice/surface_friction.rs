@@ -49,7 +49,7 @@ const NO_PLACE: u32 = u32::MAX;
 /// A cell at a sloping face, as `sloping_cell.wgsl` has it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-pub struct SlopingCell {
+pub(super) struct SlopingCell {
     /// The face x−, x+, … nearest to the sloping one, whether it is the top of its column, and the number of cells to the sample.
     pub slope: u32,
     /// Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
@@ -71,7 +71,7 @@ pub struct SlopingCell {
 /// A cell of fluid near the surface, as `surface_friction.wgsl` has it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
-pub struct NearCell {
+struct NearCell {
     /// Its scalar.
     pub scalar: u32,
     /// The nearest face, by its number among the cells.
@@ -118,6 +118,22 @@ impl Solids<'_> {
         }
         let index = self.grid().index(cell) as u32;
         self.fractions.get(&index).copied().unwrap_or(0.0)
+    }
+
+    /// The cells that the surface cuts and their full neighbours, in ascending order.
+    fn at_surface(&self) -> Vec<[u32; 3]> {
+        let [nx, ny, _] = self.grid().cells;
+        let mut cells = Vec::new();
+        for surface in &self.survey.setup.surface {
+            let n = surface.cell;
+            let cell = [n % nx, n / nx % ny, n / (nx * ny)];
+            let around = C.iter().filter_map(|&c| self.neighbour(cell, c));
+            let full = around.filter(|&other| self.survey.is_solid(other));
+            cells.extend(std::iter::once(cell).chain(full));
+        }
+        cells.sort_unstable_by_key(|&cell| self.grid().index(cell));
+        cells.dedup();
+        cells
     }
 
     /// The cell next to one in a direction, in the domain.
@@ -319,24 +335,6 @@ impl SurfaceFaces {
         let each = self.cells.iter().zip(&self.slopes).enumerate();
         each.filter(|(_, (_, slope))| slope.open == 0)
             .map(|(n, (cell, slope))| (n, cell.cell, slope.normal))
-    }
-}
-
-impl Solids<'_> {
-    /// The cells that the surface cuts and their full neighbours, in ascending order.
-    fn at_surface(&self) -> Vec<[u32; 3]> {
-        let [nx, ny, _] = self.grid().cells;
-        let mut cells = Vec::new();
-        for surface in &self.survey.setup.surface {
-            let n = surface.cell;
-            let cell = [n % nx, n / nx % ny, n / (nx * ny)];
-            let around = C.iter().filter_map(|&c| self.neighbour(cell, c));
-            let full = around.filter(|&other| self.survey.is_solid(other));
-            cells.extend(std::iter::once(cell).chain(full));
-        }
-        cells.sort_unstable_by_key(|&cell| self.grid().index(cell));
-        cells.dedup();
-        cells
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     Lattice, boundary::cell_pass, cell_kernels::CellDispatch, fluid::Dispatch,
-    surface_friction::SlopingCell,
+    surface_faces::SlopingCell,
 };
 use crate::{
     Error, Result,

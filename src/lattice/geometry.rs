@@ -4,7 +4,7 @@ use super::{
     Face, Grid, Setup,
     stages::{FACES, Stages},
     surface,
-    surface_friction::SurfaceFaces,
+    surface_faces::SurfaceFaces,
     wall_model::Walls,
 };
 use crate::gpu::Processor;
@@ -397,16 +397,7 @@ impl Survey<'_> {
 
     /// The cell next to one in a direction, across periodic faces too; none outside the domain.
     pub(super) fn neighbour_in_domain(&self, cell: [u32; 3], c: [i32; 3]) -> Option<[u32; 3]> {
-        let mut to = cell;
-        for a in 0..3 {
-            let n = i64::from(self.grid.cells[a]);
-            let at = i64::from(cell[a]) + i64::from(c[a]);
-            if !self.periodic[a] && !(0..n).contains(&at) {
-                return None;
-            }
-            to[a] = at.rem_euclid(n) as u32;
-        }
-        Some(to)
+        self.grid.neighbour_in_domain(cell, c, self.periodic)
     }
 
     pub(super) fn padded_index(&self, [x, y, z]: [u32; 3]) -> u32 {

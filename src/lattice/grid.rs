@@ -168,6 +168,25 @@ impl Grid {
         [0, 1, 2].map(|a| (i64::from(cell[a]) + i64::from(c[a])).rem_euclid(n[a].into()) as u32)
     }
 
+    /// The cell of the domain next to one in a direction, across periodic faces too; none outside.
+    pub(crate) fn neighbour_in_domain(
+        &self,
+        cell: [u32; 3],
+        c: [i32; 3],
+        periodic: [bool; 3],
+    ) -> Option<[u32; 3]> {
+        let mut to = cell;
+        for a in 0..3 {
+            let n = i64::from(self.cells[a]);
+            let at = i64::from(cell[a]) + i64::from(c[a]);
+            if !periodic[a] && !(0..n).contains(&at) {
+                return None;
+            }
+            to[a] = at.rem_euclid(n) as u32;
+        }
+        Some(to)
+    }
+
     /// Index of a domain cell, x fastest.
     pub fn index(&self, [x, y, z]: [u32; 3]) -> usize {
         let [nx, ny, _] = self.cells.map(|n| n as usize);

@@ -1,6 +1,6 @@
 //! Cells that solids at rest fill in part, as the device has them.
 
-use super::{C, Grid, Setup, buffers::storage, surface_friction::SurfaceFaces};
+use super::{C, Grid, Setup, buffers::storage, surface_faces::SurfaceFaces};
 
 /// In a fluid cell next to one that is filled in part.
 const NEAR: f32 = -1.0;
@@ -33,16 +33,8 @@ fn marked<'a>(setup: &'a Setup, grid: &'a Grid) -> impl Iterator<Item = ([u32; 3
     let at = move |n: u32| [n % nx, n / nx % ny, n / (nx * ny)];
     let solid = move |cell: [u32; 3]| setup.solid.get(grid.index(cell)) == Some(&true);
     let periodic = setup.periodic_axes();
-    let neighbour = move |cell: [u32; 3], c: [i32; 3]| {
-        let mut to = [0; 3];
-        for a in 0..3 {
-            let n = i64::from(grid.cells[a]);
-            let i = i64::from(cell[a]) + i64::from(c[a]);
-            if !periodic[a] && !(0..n).contains(&i) {
-                return None;
-            }
-            to[a] = i.rem_euclid(n) as u32;
-        }
+    let neighbour = move |cell, c| {
+        let to = grid.neighbour_in_domain(cell, c, periodic)?;
         (!solid(to)).then_some(to)
     };
     let own = setup.surface.iter();

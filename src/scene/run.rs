@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::gpu::Processor;
 use crate::units::Units;
 
-/// Longest simulated time, s: thirty thousand years. Beyond it the number of steps overflows.
+/// Longest simulated time, s: thirty thousand years. More is a mistake of units, and the number of steps would overflow.
 const LONGEST: f64 = 1e12;
 
 /// Length of the run. Exactly one of `duration` and `steps` is given.

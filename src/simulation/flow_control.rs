@@ -1,23 +1,27 @@
 //! Proportional-integral control of the body force that maintains the bulk velocity of a periodic flow. With the velocity
 //! error e, M steps from one measurement to the next and T = 10 M, I += e M r / T and F = I + e / T. Without friction
 //! r = 1 / (4 T) damps critically. If friction alone slows the flow down at a greater rate, r is that rate, since the
-//! integral part then has to find the force.
+//! integral part then has to find the force: the rate follows from the force and the change of velocity between two measurements.
 
 use super::lattice_fluid::LatticeFluid;
 use crate::{
     Result,
     lattice::Sums,
     scene::{Boundary, Face, Scene},
-    units::Units,
+    units::{SOUND_SPEED_SQUARED, Units},
 };
 
 /// Steps from one measurement to the next.
 const STEPS: u64 = 50;
 /// Steps in which the proportional part alone removes an error.
 const TIME: f64 = 10.0 * STEPS as f64;
-/// Bound on the integral part relative to the friction of a smooth wall: an error that no force corrects must not
-/// accumulate without limit.
+/// Bounds on the integral part, of which the greater holds: an error that no force corrects must not accumulate without limit.
+/// Relative to the friction of a smooth wall.
 const LARGEST: f64 = 100.0;
+/// Relative difference of density over the domain, if obstacles bear all of the force.
+const LARGEST_DROP: f64 = 0.1;
+/// Part of the prescribed velocity from which the rate of friction is known.
+const LEAST_VELOCITY: f64 = 1e-3;
 
 /// Controller of the bulk velocity of a fluid, in lattice units.
 #[derive(Debug)]
@@ -27,10 +31,12 @@ pub(super) struct FlowControl {
     target: f64,
     /// Constant body force per mass of the scene.
     base: [f64; 3],
-    /// r, per step.
+    /// Smallest r, per step.
     rate: f64,
     /// Estimated friction of smooth walls: the force at the start.
     usual: f64,
+    /// Bound on the integral part.
+    largest: f64,
     state: FlowControlState,
 }
 
@@ -42,6 +48,8 @@ pub struct FlowControlState {
     pub integral: f64,
     /// Force per mass F.
     pub force: f64,
+    /// Bulk velocity at the last measurement; none before the first.
+    pub velocity: Option<f64>,
 }
 
 impl FlowControlState {
@@ -49,6 +57,7 @@ impl FlowControlState {
         Self {
             integral: force,
             force,
+            velocity: None,
         }
     }
 }
@@ -79,6 +88,7 @@ impl FlowControl {
             base,
             rate: (usual / target).max(0.25 / TIME),
             usual,
+            largest: (LARGEST * usual.abs()).max(LARGEST_DROP * SOUND_SPEED_SQUARED / cells[axis]),
             state: FlowControlState::start(usual),
         })
     }
@@ -100,10 +110,26 @@ impl FlowControl {
     /// Updates the force from a measured bulk velocity.
     fn follow(&mut self, velocity: f64) {
         let error = self.target - velocity;
-        let integral = self.state.integral + error * STEPS as f64 * self.rate / TIME;
-        let most = LARGEST * self.usual.abs();
-        self.state.integral = integral.clamp(-most, most);
-        self.state.force = self.state.integral + error / TIME;
+        let rate = self.friction_rate(velocity).max(self.rate);
+        let integral = self.state.integral + error * STEPS as f64 * rate / TIME;
+        let integral = integral.clamp(-self.largest, self.largest);
+        self.state = FlowControlState {
+            integral,
+            force: integral + error / TIME,
+            velocity: Some(velocity),
+        };
+    }
+
+    /// The rate per step at which friction slowed the flow down since the last measurement, at most that of one interval.
+    fn friction_rate(&self, velocity: f64) -> f64 {
+        let before = self.state.velocity;
+        let Some(before) = before.filter(|_| velocity.abs() > LEAST_VELOCITY * self.target.abs())
+        else {
+            return 0.0;
+        };
+        let change = (velocity - before) / STEPS as f64;
+        let friction = self.force()[self.axis] - change;
+        (friction / velocity).min(1.0 / STEPS as f64)
     }
 
     /// The force on all cells.
@@ -157,5 +183,66 @@ impl LatticeFluid {
             coupling.set_acceleration(force.map(|force| force / per_mass));
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The bulk velocity after 6000 steps in units of the prescribed one, if friction slows the flow down at the given rate and at
+    /// a rate proportional to the velocity.
+    fn after(linear: f64, quadratic: f64) -> f64 {
+        let target = 0.05;
+        let mut control = FlowControl {
+            axis: 0,
+            target,
+            base: [0.0; 3],
+            rate: 0.25 / TIME,
+            usual: 1e-6,
+            largest: 5e-4,
+            state: FlowControlState::start(1e-6),
+        };
+        let mut velocity: f64 = 0.0;
+        for step in 1..=6000 {
+            let friction = (linear + quadratic * velocity.abs()) * velocity;
+            velocity += control.force()[0] - friction;
+            if step % STEPS == 0 {
+                control.follow(velocity);
+            }
+        }
+        velocity / target
+    }
+
+    /// With a rate of 1 / (4 T), friction of 1e-2 would leave three quarters of the error.
+    #[test]
+    fn the_force_finds_any_friction() {
+        for (linear, quadratic) in [
+            (2e-3, 0.0),
+            (5e-3, 0.0),
+            (9e-3, 0.0),
+            (0.0, 0.05),
+            (0.0, 0.15),
+        ] {
+            let found = after(linear, quadratic);
+            assert!((found - 1.0).abs() < 0.02, "{linear} {quadratic}: {found}");
+        }
+    }
+
+    #[test]
+    fn a_flow_that_cannot_move_is_pushed_with_the_largest_force() {
+        let mut control = FlowControl {
+            axis: 0,
+            target: 0.05,
+            base: [0.0; 3],
+            rate: 0.25 / TIME,
+            usual: 1e-6,
+            largest: 5e-4,
+            state: FlowControlState::start(1e-6),
+        };
+        for _ in 0..100_000 {
+            control.follow(0.0);
+        }
+        assert_eq!(control.state.integral, control.largest);
     }
 }

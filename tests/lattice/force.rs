@@ -1,7 +1,7 @@
 //! A body force that changes between two steps.
 
 use kit::{Rig, assert_contains, assert_near};
-use riprap::lattice::{Force, Observer, Setup, State};
+use riprap::lattice::{Face, Force, Observer, Setup, State, Storage};
 
 /// Populations carry momentum without half of the force of the coming step; the momentum that is read includes it.
 #[test]
@@ -27,4 +27,24 @@ fn momentum_is_what_each_force_has_put_in() {
     let mut forceless = rig.start(Setup::periodic([3, 3, 3], 0.05), &State::rest(27), true);
     let none = forceless.set_force(&rig.queue, [0.0; 3]);
     assert_contains(none.unwrap_err(), &["force", "the same in all cells"]);
+}
+
+/// In a laminar channel in which a step of the force changes the velocity by 1e-4 of it, 16 bits lose part of the force.
+#[test]
+fn sixteen_bits_lose_a_force_that_drives_a_smooth_flow_slowly() {
+    let rig = Rig::new();
+    let momentum = |storage| {
+        let mut setup = Setup::periodic([4, 4, 24], 0.01);
+        setup.faces[2] = [const { Face::Wall([0.0; 3]) }; 2];
+        setup.force = Force::Constant([1e-5, 0.0, 0.0]);
+        setup.storage = storage;
+        assert!(setup.spread_lanes(4));
+        let mut lattice = rig.start(setup, &State::rest(4 * 4 * 24), true);
+        rig.run(&mut lattice, 12_000);
+        let mut observer = Observer::new(&rig.device, &lattice).unwrap();
+        let sums = observer.sums(&rig.device, &rig.queue, &mut lattice);
+        rig.wait(sums).unwrap().momentum[0]
+    };
+    let kept = momentum(Storage::F16) / momentum(Storage::F32);
+    assert!((0.8..0.95).contains(&kept), "{kept}");
 }

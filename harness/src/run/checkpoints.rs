@@ -1,6 +1,7 @@
 //! Checkpoints, from which a run can be restarted: `checkpoint.riprap`, and a copy of its scene, `checkpoint.toml`.
 
 use super::{
+    extremes,
     recorder::{Recorder, RunLog, Schedule},
     scene_run::SceneRun,
 };
@@ -84,6 +85,7 @@ impl Recorder for Checkpoints {
         }
         let begin = Instant::now();
         let written = run.checkpoint(&self.path).map_err(Into::into);
+        let written = written.and_then(|()| extremes::keep(&self.path, step, log));
         match written.and_then(|()| keep_scene(&self.text, &self.path)) {
             // The scene did not request this checkpoint, so the run goes on without it.
             Err(error) if self.own.is_some() => {

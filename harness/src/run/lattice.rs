@@ -11,6 +11,9 @@ use riprap::{
 use serde::Serialize;
 use std::fmt;
 
+/// Relative difference of the bulk velocity from the prescribed one at the end of a run that needs no warning.
+const BULK_TOLERANCE: f64 = 0.02;
+
 /// Cells, kernel and speed of a run.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct LatticeSummary {
@@ -82,15 +85,34 @@ impl LatticeSummary {
     }
 
     /// A warning if the fluid became faster than the time step is for.
-    pub fn warning(&self, log: &RunLog) -> Option<String> {
-        (self.max_mach > HIGH_MACH).then(|| {
+    pub fn warning(&self, run: &SceneRun, log: &RunLog) -> Option<String> {
+        let (mach, fastest) = (self.max_mach, log.max_speed);
+        let numerics = &run.scene().numerics;
+        let (key, remedy) = if numerics.time_step.is_some() {
+            let shorter = run.time_step() * HIGH_MACH / mach;
+            ("time_step", format!("time_step ≤ {shorter:.3e} s"))
+        } else {
+            ("velocity_scale", format!("velocity_scale = {fastest:.3e}"))
+        };
+        (mach > HIGH_MACH).then(|| {
             format!(
-                "numerics.velocity_scale: the largest speed of the fluid, {:.3e} m/s, has the Mach number {:.3} on the lattice, above \
-                 {HIGH_MACH}: errors of compressibility near {:.1} %; use velocity_scale = {:.3e}",
-                log.max_speed,
-                self.max_mach,
-                100.0 * self.max_mach * self.max_mach,
-                log.max_speed
+                "numerics.{key}: the largest speed of the fluid, {fastest:.3e} m/s, has the Mach number {mach:.3} on the lattice, \
+                 above {HIGH_MACH}: errors of compressibility near {:.1} %; use {remedy}",
+                100.0 * mach * mach,
+            )
+        })
+    }
+
+    /// A warning if the bulk velocity is not the prescribed one.
+    pub fn flow_warning(run: &mut SceneRun) -> Option<String> {
+        let (axis, prescribed) = run.scene().fluid.kept_velocity()?;
+        // If the device is lost, the run has already reported the error.
+        let found = run.totals().ok()?.bulk_velocity;
+        ((found - prescribed).abs() > BULK_TOLERANCE * prescribed.abs()).then(|| {
+            format!(
+                "fluid.bulk_velocity: the mean velocity along {} is {found:.4e} m/s at the end instead of {prescribed} m/s; results \
+                 are those of a flow that still changes: run longer, or start from initial.velocity",
+                ["x", "y", "z"][axis]
             )
         })
     }

@@ -7,6 +7,7 @@
 mod checkpoints;
 mod collection;
 mod estimate;
+mod extremes;
 mod gauges;
 mod header;
 mod history;

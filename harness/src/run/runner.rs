@@ -2,6 +2,7 @@
 
 use super::{
     checkpoints::Checkpoints,
+    extremes,
     header::print_header,
     history,
     progress::Progress,
@@ -58,10 +59,11 @@ impl Runner {
         recorders.extend(run.recorders(folder, last)?);
         // Last, so that the files that a restart continues have been written.
         recorders.push(Box::new(Checkpoints::new(run, folder, last, text)));
-        let log = RunLog {
-            checkpoint: restart.map(|path| (run.step(), path.to_owned())),
-            ..RunLog::default()
-        };
+        let mut log = RunLog::default();
+        if let Some(path) = restart {
+            log.checkpoint = Some((run.step(), path.to_owned()));
+            extremes::resume(path, run.step(), &mut log);
+        }
         Ok(Self {
             folder: folder.to_owned(),
             last,

@@ -413,8 +413,9 @@ impl SceneRun {
             Kind::Lattice => {
                 let lattice = summary.lattice.take();
                 summary.lattice = lattice.map(|l| l.finished(self, log, throughput));
-                let warning = summary.lattice.as_ref().and_then(|l| l.warning(log));
+                let warning = summary.lattice.as_ref().and_then(|l| l.warning(self, log));
                 summary.warnings.extend(warning);
+                summary.warnings.extend(LatticeSummary::flow_warning(self));
                 summary.coupling = Coupling::of(&self.simulation, throughput.whole().steps);
                 self.report_wall_units(summary);
                 self.report_wall_model(summary);

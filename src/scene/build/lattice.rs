@@ -183,6 +183,16 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         None => [if software { 4 } else { fewest }, fewest],
     };
     if !preferred.iter().any(|&lanes| setup.spread_lanes(lanes)) {
+        if numerics.lanes.is_none() {
+            let [_, ny, nz] = setup.cells;
+            return Err(Error::scene(
+                "numerics.storage",
+                format!(
+                    "packs pairs of cells along y or z into words, and the domain is periodic along both with {ny} and {nz} cells; use an \
+                     even number along one of them, or storage = \"f32\""
+                ),
+            ));
+        }
         // An impossible number is refused later, with the reason.
         setup.lanes = preferred[1];
     }

@@ -1,11 +1,11 @@
 //! Factors of safety of blocks whose probes request them.
 
 use riprap::safety::SafetyFactors;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Factors of safety of a block in a run. In JSON infinite and unknown ones are both null.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Safety {
     /// The block.
     pub block: String,
@@ -18,7 +18,7 @@ pub struct Safety {
 }
 
 /// Factors of safety: infinite without a driving load, NaN if the block touches nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Factors {
     /// Against sliding.
     pub sliding: f64,

@@ -1,0 +1,352 @@
+//! The faces of exact surfaces of solids at rest, such as terrain, where the wall model acts.
+//!
+//! They do not move and are found once, in f64. [`super::block_friction`] finds those of blocks on the device whenever these have
+//! moved.
+
+use super::{C, Grid, WallCell, geometry::Survey, wall_model::Walls};
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+use std::collections::{HashMap, HashSet};
+
+/// Largest slope of a face towards the nearest axis.
+const LARGEST_SLOPE: f64 = 1.2;
+/// Largest sum of the differences of height to the columns on both sides: more at edges.
+const FLAT: f64 = 0.2;
+/// Cells of a column from the surface to full or empty ones, and up to the one whose velocity the law reads.
+const PARTIAL: usize = 4;
+const REACH: usize = 12;
+/// Distance of that cell from the face, at least.
+const SAMPLE_DISTANCE: f64 = 4.0;
+/// Height above the face up to which the eddy viscosity follows from the law.
+const NEAR: f64 = 4.5;
+/// Ratio of the two largest components towards less solid from which a column may run along the second.
+const DIAGONAL: f64 = 0.9;
+/// The cell is the uppermost full one of its column; the number of cells to the one of the law follows.
+pub(super) const TOP: u32 = 8;
+pub(super) const CELLS: u32 = 4;
+/// The directions through the six faces of a cell.
+const SIDES: u32 = 0x7e;
+
+/// A cell at a sloping face, as `sloping_cell.wgsl` has it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub(super) struct SlopingCell {
+    /// The face x−, x+, … nearest to the sloping one, whether it is the top of its column, and the number of cells to the sample.
+    pub slope: u32,
+    /// Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
+    pub open: u32,
+    /// Scalar of the cell whose velocity the law reads.
+    pub sample: u32,
+    /// Its distance from the face, cells.
+    pub distance: f32,
+    /// Outward normal.
+    pub normal: [f32; 3],
+    /// Friction velocity.
+    pub friction: f32,
+    /// Tangential velocity that the law has read, relative to the solid.
+    pub u: [f32; 3],
+    /// Not used.
+    pub pad: u32,
+}
+
+/// A cell of fluid near the surface, as `surface_friction.wgsl` has it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(super) struct NearCell {
+    /// Its scalar.
+    pub scalar: u32,
+    /// The nearest face, by its number among the cells.
+    pub face: u32,
+    /// Distance from it, cells.
+    pub distance: f32,
+}
+
+/// The faces of exact surfaces where the wall model acts.
+#[derive(Debug, Default)]
+pub struct SurfaceFaces {
+    /// Cells at the surface, with the face opposite to that nearest to the sloping one, so that the layers lead into the fluid.
+    pub(super) cells: Vec<WallCell>,
+    pub(super) slopes: Vec<SlopingCell>,
+    pub(super) near: Vec<NearCell>,
+    /// Faces among these: the uppermost full cells of columns.
+    pub count: usize,
+}
+
+/// The solid fractions of a setup.
+struct Solids<'a> {
+    survey: &'a Survey<'a>,
+    fractions: HashMap<u32, f64>,
+    /// Fluid cells at plane walls, which have a model of their own.
+    plane: HashSet<u32>,
+}
+
+/// A face at a cell.
+struct Found {
+    slope: SlopingCell,
+    /// Cells of the column above with their distances from the face.
+    above: Vec<([u32; 3], f64)>,
+}
+
+impl Solids<'_> {
+    fn grid(&self) -> &Grid {
+        self.survey.grid
+    }
+
+    /// 1 in a full cell.
+    fn fraction(&self, cell: [u32; 3]) -> f64 {
+        if self.survey.is_solid(cell) {
+            return 1.0;
+        }
+        let index = self.grid().index(cell) as u32;
+        self.fractions.get(&index).copied().unwrap_or(0.0)
+    }
+
+    /// The cells that the surface cuts and their full neighbours, in ascending order.
+    fn at_surface(&self) -> Vec<[u32; 3]> {
+        let [nx, ny, _] = self.grid().cells;
+        let mut cells = Vec::new();
+        for surface in &self.survey.setup.surface {
+            let n = surface.cell;
+            let cell = [n % nx, n / nx % ny, n / (nx * ny)];
+            let around = C.iter().filter_map(|&c| self.neighbour(cell, c));
+            let full = around.filter(|&other| self.survey.is_solid(other));
+            cells.extend(std::iter::once(cell).chain(full));
+        }
+        cells.sort_unstable_by_key(|&cell| self.grid().index(cell));
+        cells.dedup();
+        cells
+    }
+
+    /// The cell next to one in a direction, in the domain.
+    fn neighbour(&self, cell: [u32; 3], c: [i32; 3]) -> Option<[u32; 3]> {
+        self.survey.neighbour_in_domain(cell, c)
+    }
+
+    fn step(axis: usize, by: i32) -> [i32; 3] {
+        let mut c = [0; 3];
+        c[axis] = by;
+        c
+    }
+
+    /// Height of the solid above the centre of a cell, along `out`, where its column is solid, then cut, then fluid.
+    fn height(&self, cell: [u32; 3], axis: usize, out: i32) -> Option<f64> {
+        let mut height = self.fraction(cell) - 0.5;
+        for (by, end) in [(out, 0.0), (-out, 1.0)] {
+            let (mut at, mut fraction) = (cell, self.fraction(cell));
+            for passed in 0.. {
+                if fraction == end {
+                    break;
+                }
+                if passed == PARTIAL {
+                    return None;
+                }
+                at = self.neighbour(at, Self::step(axis, by))?;
+                fraction = self.fraction(at);
+                height += fraction - end;
+            }
+        }
+        Some(height)
+    }
+
+    /// Slope of the surface along an axis, where it is flat.
+    fn slope(&self, cell: [u32; 3], axis: usize, out: i32, along: usize) -> Option<f64> {
+        let side = |by| {
+            let other = self.neighbour(cell, Self::step(along, by))?;
+            self.height(other, axis, out)
+        };
+        let height = self.height(cell, axis, out)?;
+        let (before, after) = (side(-1)?, side(1)?);
+        let slope = 0.5 * (after - before);
+        let is_flat = (before + after - 2.0 * height).abs() <= FLAT && slope.abs() < LARGEST_SLOPE;
+        is_flat.then_some(slope)
+    }
+
+    /// The face at a cell that the surface cuts, or that lies full under it.
+    fn face(&self, cell: [u32; 3]) -> Option<Found> {
+        let own = self.fraction(cell);
+        let mut open = 0;
+        // Towards less solid, with the weights of Youngs 1984.
+        let mut less = DVec3::ZERO;
+        for (q, &c) in C.iter().enumerate().skip(1) {
+            let other = self.neighbour(cell, c)?;
+            let fraction = self.fraction(other);
+            let is_plane = self.plane.contains(&(self.grid().index(other) as u32));
+            if fraction < 1.0 && !is_plane {
+                open |= 1 << q;
+            }
+            let order: i32 = c.iter().map(|c| c.abs()).sum();
+            less -= f64::from(4 >> (order - 1)) * fraction * DVec3::from_array(c.map(f64::from));
+        }
+        if open == 0 || less.length() < 1e-3 {
+            return None;
+        }
+        let mut axes = [0, 1, 2];
+        axes.sort_by(|&a, &b| less[b].abs().total_cmp(&less[a].abs()));
+        let [first, second, _] = axes;
+        let out_along = |axis: usize| if less[axis] > 0.0 { 1 } else { -1 };
+        let column = |axis| Some((axis, self.height(cell, axis, out_along(axis))?));
+        let other = || (less[second].abs() > DIAGONAL * less[first].abs()).then_some(second);
+        let (axis, height) = column(first).or_else(|| column(other()?))?;
+        let out = out_along(axis);
+        // At edges, the direction towards less solid.
+        let mut normal = less;
+        let [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
+        let slopes = [a, b].map(|along| self.slope(cell, axis, out, along));
+        if let [Some(along_a), Some(along_b)] = slopes {
+            normal[axis] = f64::from(out);
+            (normal[a], normal[b]) = (-along_a, -along_b);
+        }
+        let normal = normal.normalize();
+        let rise = normal[axis].abs();
+        let is_full = own == 1.0;
+        let next = self.neighbour(cell, Self::step(axis, out))?;
+        if is_full && self.plane.contains(&(self.grid().index(next) as u32)) {
+            return None;
+        }
+        let top = is_full && self.fraction(next) < 1.0;
+        let mut above = Vec::new();
+        let mut at = cell;
+        for k in 1..=REACH {
+            at = self.neighbour(at, Self::step(axis, out))?;
+            let fraction = self.fraction(at);
+            if k as f64 > height + 2.0 && fraction > 0.0
+                || k as f64 > height + 0.5 && fraction == 1.0
+            {
+                return None;
+            }
+            let distance = (k as f64 - height) * rise;
+            above.push((at, distance));
+            if distance < SAMPLE_DISTANCE {
+                continue;
+            }
+            let face = (2 * axis) as u32 + u32::from(out > 0);
+            let slope = SlopingCell {
+                slope: face | if top { TOP } else { 0 } | (k as u32) << CELLS,
+                open: if is_full { open } else { 0 },
+                sample: self.grid().scalar_of(at),
+                distance: distance as f32,
+                normal: normal.as_vec3().to_array(),
+                ..SlopingCell::default()
+            };
+            return Some(Found { slope, above });
+        }
+        None
+    }
+}
+
+impl SurfaceFaces {
+    /// Those of a setup; none without a wall model on surfaces.
+    pub(super) fn new(survey: &Survey<'_>, walls: &Walls) -> Self {
+        let (setup, grid) = (survey.setup, survey.grid);
+        if !setup.has_surface_friction() {
+            return Self::default();
+        }
+        let index = |wall: &WallCell| grid.index(grid.padded_cell(wall.cell)) as u32;
+        let solids = Solids {
+            survey,
+            fractions: setup
+                .surface
+                .iter()
+                .map(|s| (s.cell, s.fraction.into()))
+                .collect(),
+            plane: walls.cells.iter().map(index).collect(),
+        };
+        let mut found = Self::default();
+        let mut nearest: HashMap<[u32; 3], (f64, u32)> = HashMap::new();
+        for cell in solids.at_surface() {
+            let Some(Found { slope, above }) = solids.face(cell) else {
+                continue;
+            };
+            let number = found.cells.len() as u32;
+            if slope.slope & TOP != 0 {
+                found.count += 1;
+                for (at, y) in above {
+                    let holds_none = solids.fraction(at) == 0.0;
+                    if y < NEAR && (y > 1.0 || y > 0.0 && holds_none) {
+                        let kept = nearest.entry(at).or_insert((y, number));
+                        if y < kept.0 {
+                            *kept = (y, number);
+                        }
+                    }
+                }
+            }
+            let roughness = setup.solid_roughness.get(grid.index(cell));
+            found.cells.push(WallCell {
+                cell: survey.padded_index(cell),
+                face: (slope.slope & 7) ^ 1,
+                layers: 0,
+                roughness: roughness.copied().unwrap_or(0.0),
+            });
+            found.slopes.push(slope);
+        }
+        for at in walls.layer_cells(grid) {
+            nearest.remove(&at);
+        }
+        let near = nearest.into_iter().map(|(at, (distance, face))| NearCell {
+            scalar: grid.scalar_of(at),
+            face,
+            distance: distance as f32,
+        });
+        found.near = near.collect();
+        found.near.sort_unstable_by_key(|near| near.scalar);
+        found
+    }
+
+    /// Number of faces of walls and solids, of which `all` have fluid in front of them on the grid: the steps of a sloping face count
+    /// as its part in each column.
+    pub(super) fn area(&self, all: u64) -> u64 {
+        let steps = self
+            .slopes
+            .iter()
+            .map(|slope| (slope.open & SIDES).count_ones());
+        all - u64::from(steps.sum::<u32>()) + self.count as u64
+    }
+
+    /// The fluid cells next to these faces, as indices into an array over the domain.
+    pub fn open_cells(&self, grid: &Grid) -> impl Iterator<Item = usize> {
+        let each = self.cells.iter().zip(&self.slopes);
+        each.flat_map(move |(cell, slope)| {
+            let open = (1..27).filter(|q| slope.open & (1 << q) != 0);
+            open.map(move |q| grid.index(grid.neighbour(grid.padded_cell(cell.cell), C[q])))
+        })
+    }
+
+    /// The cells that the surface cuts, with the normals of their faces.
+    pub(super) fn cut(&self) -> impl Iterator<Item = (usize, u32, [f32; 3])> {
+        let each = self.cells.iter().zip(&self.slopes).enumerate();
+        each.filter(|(_, (_, slope))| slope.open == 0)
+            .map(|(n, (cell, slope))| (n, cell.cell, slope.normal))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        gpu::layout::check,
+        lattice::{Setup, single_cells},
+    };
+    use std::mem::offset_of;
+
+    #[test]
+    fn cells_have_the_layout_of_the_kernel() {
+        let program = single_cells(&Setup::periodic([4; 3], 0.1), 1, "surface_friction");
+        let module = program.link().unwrap().module;
+        let sloping = [
+            ("slope", offset_of!(SlopingCell, slope)),
+            ("open", offset_of!(SlopingCell, open)),
+            ("sample", offset_of!(SlopingCell, sample)),
+            ("distance", offset_of!(SlopingCell, distance)),
+            ("normal", offset_of!(SlopingCell, normal)),
+            ("friction", offset_of!(SlopingCell, friction)),
+            ("u", offset_of!(SlopingCell, u)),
+        ];
+        check::<SlopingCell>(&module, "SlopingCell", &sloping).unwrap();
+        let near = [
+            ("scalar", offset_of!(NearCell, scalar)),
+            ("face", offset_of!(NearCell, face)),
+            ("distance", offset_of!(NearCell, distance)),
+        ];
+        check::<NearCell>(&module, "NearCell", &near).unwrap();
+    }
+}

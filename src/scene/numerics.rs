@@ -23,12 +23,12 @@ pub struct Numerics {
     /// Steps from one evaluation of the eddy viscosity to the next: 1 or 2. With 2, odd steps use that of the step
     /// before. Default 2.
     pub wale_interval: u32,
-    /// Law of the wall for the friction of walls and solids at rest, and of grid-aligned faces of blocks. It
-    /// needs `eddy_viscosity = "wale"`. Default `none`.
+    /// Law of the wall for the friction of walls and solids at rest, and of blocks. It needs `eddy_viscosity = "wale"`. Default
+    /// `none`.
     pub wall_model: WallModel,
     /// Whether it also acts on faces of blocks at an angle to the grid, and on edges; with `solid_operator = "holdych"` and
-    /// `storage = "f32"`. Default `false`.
-    pub sloping_faces: bool,
+    /// `storage = "f32"`. Default `true` where that is so.
+    pub sloping_faces: Option<bool>,
     /// Precision of the stored populations. Default `f32`.
     pub storage: Storage,
     /// Cells per invocation of a kernel: 1, 2 (`f16` only) or 4. Default: chosen
@@ -69,7 +69,7 @@ impl Default for Numerics {
             wale_constant: 0.5,
             wale_interval: 2,
             wall_model: WallModel::default(),
-            sloping_faces: false,
+            sloping_faces: None,
             storage: Storage::default(),
             lanes: None,
             time_step: None,
@@ -88,6 +88,18 @@ impl Default for Numerics {
 impl Numerics {
     /// Default Mach number: errors of compressibility stay near 1 %.
     pub const DEFAULT_MACH: f64 = 0.1;
+
+    fn can_have_sloping_faces(&self) -> bool {
+        self.wall_model != WallModel::None
+            && self.solid_operator == SolidOperator::Holdych
+            && self.storage == Storage::F32
+    }
+
+    /// Whether the wall model acts on faces of blocks at an angle to the grid, and on edges.
+    pub fn has_sloping_faces(&self) -> bool {
+        self.sloping_faces
+            .unwrap_or_else(|| self.can_have_sloping_faces())
+    }
 }
 
 /// Collision operator.
@@ -236,10 +248,7 @@ impl Scene {
                  or leave `wall_model` out",
             );
         }
-        let acts = n.wall_model != WallModel::None
-            && n.solid_operator == SolidOperator::Holdych
-            && n.storage == Storage::F32;
-        if n.sloping_faces && !acts {
+        if n.sloping_faces == Some(true) && !n.can_have_sloping_faces() {
             return refuse(
                 "numerics.sloping_faces",
                 "needs a `wall_model`, solid_operator = \"holdych\" and storage = \"f32\"; set them, or leave it out",

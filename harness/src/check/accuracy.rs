@@ -6,6 +6,7 @@
 
 use crate::{print::percent, report::Row};
 use riprap::{
+    lattice::Setup,
     scene::{Axis, Boundary, Face},
     simulation::{SUBLAYER, Simulation},
 };
@@ -64,6 +65,39 @@ struct Conditions {
     tau: f64,
     /// U D/ν of a block, if a speed is known.
     reynolds: Option<f64>,
+    friction: Friction,
+}
+
+/// Faces whose friction comes from the wall model.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Friction {
+    #[default]
+    None,
+    Aligned,
+    All,
+}
+
+impl Friction {
+    fn of(setup: &Setup) -> Self {
+        match (setup.has_block_friction(), setup.has_sloping_friction()) {
+            (false, _) => Self::None,
+            (true, false) => Self::Aligned,
+            (true, true) => Self::All,
+        }
+    }
+
+    /// The friction at a y⁺ above that of the measured flows.
+    fn text(self) -> &'static str {
+        match self {
+            Self::None => {
+                "at this y⁺ friction is not resolved: too small, or too large at an angle to the grid"
+            }
+            Self::Aligned => {
+                "at this y⁺ friction comes from the wall model, and at an angle to the grid it is too large"
+            }
+            Self::All => "at this y⁺ friction comes from the wall model",
+        }
+    }
 }
 
 impl Accuracy {
@@ -82,6 +116,7 @@ impl Accuracy {
                 across: width / cell,
                 tau,
                 reynolds: speed.map(|speed| speed * width / scene.fluid.viscosity),
+                friction: Friction::of(lattice.setup()),
             };
             let [.., [widest, _]] = NEIGHBOURS;
             let coupled = simulation.coupled()?;
@@ -199,6 +234,7 @@ fn of_blocks(rows: &[Row], conditions: Conditions) -> Option<Accuracy> {
         across,
         tau,
         reynolds,
+        friction,
     } = conditions;
     let [slow, fast] = around(
         BLOCKS.iter().map(|class| class.1),
@@ -230,10 +266,7 @@ fn of_blocks(rows: &[Row], conditions: Conditions) -> Option<Accuracy> {
     }
     let resolved = most(|row| row.y_plus).max(SUBLAYER);
     if y_plus.is_some_and(|y_plus| y_plus > resolved) {
-        beyond.push(
-            "at this y⁺ friction is not resolved: too small, or too large at an angle to the grid"
-                .into(),
-        );
+        beyond.push(friction.text().into());
     }
     let found = Accuracy::of(
         "drag on blocks",
@@ -257,6 +290,7 @@ fn of_walls(rows: &[Row], across: f64, tau: f64) -> Option<Accuracy> {
         across,
         tau,
         reynolds: None,
+        friction: Friction::default(),
     };
     let measured = vec!["Poiseuille flow"];
     let of = "laminar shear at the walls";

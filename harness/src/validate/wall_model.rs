@@ -333,7 +333,6 @@ impl Rods {
         if self.model {
             scene.numerics.wall_model = scene::WallModel::WernerWengle;
         }
-        scene.numerics.sloping_faces = self.model && !self.at_rest;
         scene.fluid.acceleration = numbers([0.0, 0.0, friction * friction / h]);
         let from_middle = format!("sqrt((x - {})^2 + (y - {})^2)", middle[0], middle[1]);
         let from_rod = format!(

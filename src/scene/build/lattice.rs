@@ -92,7 +92,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         scene::WallModel::WernerWengle => Some(WallModel::WernerWengle),
         scene::WallModel::Reichardt => Some(WallModel::Reichardt),
     };
-    setup.sloping_faces = numerics.sloping_faces;
+    setup.sloping_faces = numerics.has_sloping_faces();
     let force = |a: f64| units.acceleration_to_lattice(a);
     setup.force = match scene.force_field()? {
         // Flow control changes it during the run.

@@ -28,6 +28,7 @@ fn band(across: f64, tau: f64, reynolds: Option<f64>) -> [f64; 2] {
         across,
         tau,
         reynolds,
+        friction: Friction::default(),
     };
     of_blocks(&table(), conditions).map_or([f64::NAN; 2], |found| found.band)
 }
@@ -51,6 +52,7 @@ fn what_lies_beyond_the_table_is_said() {
             across,
             tau,
             reynolds,
+            friction: Friction::default(),
         };
         of_blocks(&table(), conditions).map_or(String::new(), |found| found.text())
     };
@@ -131,6 +133,7 @@ fn neighbours_count_in_the_error_of_dense_arrays() {
             across,
             tau: 1.0,
             reynolds: None,
+            friction: Friction::default(),
         };
         let alone = of_blocks(&rows, conditions).unwrap();
         assert!(alone.band[1] < 0.01, "{alone:?}");
@@ -153,6 +156,7 @@ fn wide_gaps_add_nothing_and_what_is_not_measured_is_said() {
         across: 10.0,
         tau,
         reynolds: None,
+        friction: Friction::default(),
     };
     let alone = |tau| of_blocks(&rows, conditions(tau)).unwrap();
     assert_eq!(alone(1.0).crowded(6.1, "a and b"), alone(1.0));

@@ -1,9 +1,8 @@
 //! A cube held on a bed of 30° in water that starts to flow (Gardner & Sitar 2018, section 6.3): the drag until the cube is
 //! released, on three grids, and the momentum of the water. The bed is a block here, whose load is measured too. Both have the
-//! wall model of the scene, but not at edges and corners: there, at a cell Reynolds number of 10⁵, a layer of cells that starts
-//! along a wall loses the momentum that 0.3 of a cell gains, whatever its viscosity, while the physical boundary layer is a
-//! thirtieth of a cell thick. The cube is effectively larger by as much, so that its drag is too large in proportion to the cell
-//! size, from the first step on.
+//! wall model of the scene. Without it, at a cell Reynolds number of 10⁵, a layer of cells that starts along a wall loses the
+//! momentum that 0.3 of a cell gains, whatever its viscosity, while the physical boundary layer is a thirtieth of a cell thick. The
+//! cube is then effectively larger by as much, so that its drag is too large in proportion to the cell size, from the first step on.
 //!
 //! ```text
 //!  u  │    __ ______   bounce-back at τ → ½: the first cell goes at 0.63 of the

@@ -89,6 +89,7 @@ fn friction_under(cell: vec3<u32>, here: Solid, face: u32) -> BlockFriction {
 @compute @workgroup_size(1)
 fn forget_outer_cells() {
     atomicStore(&outer_cells.count, 0u);
+    atomicStore(&outer_cells.slopes, 0u);
 }
 
 // Lists the outer cells of one block each, so that find_faces visits only these: software adapters execute all branches of each

@@ -15,6 +15,8 @@ struct SlopingCell {
     // Friction velocity, and the tangential velocity that the law has read, relative to the solid.
     friction: f32,
     u: vec3<f32>,
+    // Of a face of a block: its entry in outer_cells.
+    outer: u32,
 }
 
 const NO_SLOPE = 0xffffu;

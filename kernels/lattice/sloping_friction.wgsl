@@ -1,7 +1,7 @@
 // Asmuth et al. 2021, Phys. Fluids 33:105111, for faces of blocks at an angle to the grid.
 // needs sloping_faces, sloping_exchange, near_wall_bits, mixing_length
 
-// The cells of outer_cells.
+// The faces found at outer_cells, in no particular order.
 @group(0) @binding(49) var<storage, read_write> slopes: array<SlopingCell>;
 
 // Runs after find_faces, at cells without a grid-aligned face.
@@ -14,11 +14,11 @@ fn find_slopes(
     let count = atomicLoad(&outer_cells.count);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
         let here = outer_cell(n);
-        slopes[n].slope = NO_SLOPE;
         if (atomicLoad(&face_codes[here.number]) == 0u) {
-            let face = sloping_face(here.cell, here.solid);
-            slopes[n] = face;
+            var face = sloping_face(here.cell, here.solid);
             if (face.slope != NO_SLOPE) {
+                face.outer = n;
+                slopes[atomicAdd(&outer_cells.slopes, 1u)] = face;
                 let code = select(SLIDES, FULL_AT_SLOPE, here.solid.fraction >= FULL);
                 atomicStore(&face_codes[here.number], bitcast<u32>(f32(code)));
             }
@@ -33,11 +33,9 @@ fn slope_law(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let count = atomicLoad(&outer_cells.count);
+    let count = atomicLoad(&outer_cells.slopes);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
-        if (slopes[n].slope != NO_SLOPE) {
-            apply_at_slope(n, outer_cell(n));
-        }
+        apply_at_slope(n, outer_cell(slopes[n].outer));
     }
 }
 
@@ -62,11 +60,9 @@ fn clear_above_slopes(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let count = atomicLoad(&outer_cells.count);
+    let count = atomicLoad(&outer_cells.slopes);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
-        if (slopes[n].slope != NO_SLOPE) {
-            set_viscosity_above(slopes[n], outer_cell(n).cell, 0.0);
-        }
+        set_viscosity_above(slopes[n], outer_cell(slopes[n].outer).cell, 0.0);
     }
 }
 
@@ -97,14 +93,11 @@ fn sloping_friction(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    let count = atomicLoad(&outer_cells.count);
+    let count = atomicLoad(&outer_cells.slopes);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
-        if (slopes[n].slope == NO_SLOPE || slopes[n].open == 0u) {
-            continue;
-        }
         let share = model_share(slopes[n].friction);
-        if (share > 0.0) {
-            apply_sloping_friction(slopes[n], outer_cell(n), share);
+        if (slopes[n].open != 0u && share > 0.0) {
+            apply_sloping_friction(slopes[n], outer_cell(slopes[n].outer), share);
         }
     }
 }

@@ -6,9 +6,10 @@
 // grid-aligned face x-, x+, y-, y+, z-, z+ where the law acts, see CUT for a cell that such a face cuts, SLIDES, FULL_AT_SLOPE, 0 elsewhere.
 @group(0) @binding(39) var<storage, read_write> face_codes: array<atomic<u32>>;
 
-// Cells at the surfaces of blocks, by their number in these bricks (number_of).
+// Cells at the surfaces of blocks, by their number in these bricks (number_of), and the number of sloping faces among these.
 struct OuterCells {
     count: atomic<u32>,
+    slopes: atomic<u32>,
     cells: array<u32>,
 }
 

@@ -123,7 +123,7 @@ impl Lattice {
         }
         let of_model = self.bricks_of_model().zip(self.streams.face_codes());
         if let Some(((list, cells), codes)) = of_model {
-            let outer = zeroed(device, "outer cells of blocks", 4 + 4 * u64::from(cells));
+            let outer = zeroed(device, "outer cells of blocks", 8 + 4 * u64::from(cells));
             let buffers = [("face_codes", codes), ("outer_cells", &outer)];
             let pass = |entry, odd, invocations| {
                 let kernel = ("block_friction", entry);

@@ -45,8 +45,8 @@ pub(super) struct SlopingCell {
     pub friction: f32,
     /// Tangential velocity that the law has read, relative to the solid.
     pub u: [f32; 3],
-    /// Not used.
-    pub pad: u32,
+    /// Of a face of a block: its entry among the outer cells of blocks.
+    pub outer: u32,
 }
 
 /// A cell of fluid near the surface, as `surface_friction.wgsl` has it.
@@ -340,6 +340,7 @@ mod tests {
             ("normal", offset_of!(SlopingCell, normal)),
             ("friction", offset_of!(SlopingCell, friction)),
             ("u", offset_of!(SlopingCell, u)),
+            ("outer", offset_of!(SlopingCell, outer)),
         ];
         check::<SlopingCell>(&module, "SlopingCell", &sloping).unwrap();
         let near = [

@@ -5,6 +5,7 @@ use super::{failure, replace};
 use crate::{Error, Result};
 use std::{
     cmp::Ordering,
+    collections::VecDeque,
     fmt::Write as _,
     fs::{self, File},
     io::{ErrorKind, Write as _},
@@ -17,8 +18,8 @@ pub struct Csv {
     path: PathBuf,
     file: File,
     columns: usize,
-    /// The existing row of the step at which a run continues.
-    written: Option<(u64, String)>,
+    /// The step at which a run continues, and its existing rows that have not been written again.
+    written: (u64, VecDeque<String>),
 }
 
 impl Csv {
@@ -34,8 +35,8 @@ impl Csv {
     }
 
     /// Continues the table at `path` for a run that restarts at `step`. Rows from that step on are dropped, since the run
-    /// writes them again, and so is a truncated last row. If the run appends the row of `step` itself, the old row is
-    /// written unchanged. Begins a new table if there is none.
+    /// writes them again, and so is a truncated last row. If the run appends the rows of `step` itself, the old ones
+    /// are written unchanged. Begins a new table if there is none.
     ///
     /// # Errors
     /// [`Error::File`] if the table has other columns, holds a row without a step, or cannot be
@@ -53,7 +54,7 @@ impl Csv {
             Err(error) => return Err(failure("read", &path, &error)),
         };
         let mut kept = header.clone();
-        let mut written = None;
+        let mut written = VecDeque::new();
         for (number, line) in text.split_inclusive('\n').enumerate() {
             if number == 0 {
                 if line.trim_end() != header.trim_end() {
@@ -80,12 +81,12 @@ impl Csv {
             };
             match found.cmp(&step) {
                 Ordering::Less => kept += line,
-                Ordering::Equal => written = Some((step, line.to_owned())),
+                Ordering::Equal => written.push_back(line.to_owned()),
                 Ordering::Greater => {}
             }
         }
         let mut table = Self::begin(path, columns.len(), &kept)?;
-        table.written = written;
+        table.written = (step, written);
         Ok(table)
     }
 
@@ -104,10 +105,13 @@ impl Csv {
                 ),
             ));
         }
-        let row = match self.written.take() {
-            Some((known, row)) if known == step => row,
-            _ => row(step, time, values),
+        let (known, rows) = &mut self.written;
+        let old = if *known == step {
+            rows.pop_front()
+        } else {
+            None
         };
+        let row = old.unwrap_or_else(|| row(step, time, values));
         // One call per row: a killed run ends between rows.
         self.file
             .write_all(row.as_bytes())
@@ -124,7 +128,7 @@ impl Csv {
             path,
             file,
             columns,
-            written: None,
+            written: Default::default(),
         })
     }
 }

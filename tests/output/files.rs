@@ -177,6 +177,26 @@ fn a_table_restarts_without_double_rows_and_keeps_every_digit() {
     }
 }
 
+/// Tables of lines, planes and faces have several rows of a step.
+#[test]
+fn all_rows_of_the_step_of_a_restart_are_kept() {
+    let path = folder("csv_rows").join("line.csv");
+    let columns = ["s"];
+    let rows = |csv: &mut Csv, step: u64| {
+        for point in 0..3 {
+            csv.append(step, 0.1 * step as f64, &[f64::from(point)])
+                .unwrap();
+        }
+    };
+    let mut csv = Csv::create(&path, &columns).unwrap();
+    (0..4).for_each(|step| rows(&mut csv, step));
+    drop(csv);
+    let unbroken = fs::read_to_string(&path).unwrap();
+    let mut csv = Csv::resume(&path, &columns, 2).unwrap();
+    (2..4).for_each(|step| rows(&mut csv, step));
+    assert_eq!(fs::read_to_string(&path).unwrap(), unbroken);
+}
+
 #[test]
 fn a_table_with_other_columns_is_not_continued() {
     let path = folder("csv_columns").join("gauge.csv");

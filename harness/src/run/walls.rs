@@ -74,6 +74,14 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
+/// Area of a wall over that of a side of a cell.
+fn sides(wall: &WallFriction) -> f64 {
+    1.0 / wall
+        .normal
+        .iter()
+        .fold(0.0, |most: f64, n| most.max(n.abs()))
+}
+
 /// A row of the table: the [`columns`] for each place that has the model.
 fn row(frictions: &WallFrictions, places: &[WallPlace]) -> Vec<f64> {
     let of = |place: &WallPlace| {
@@ -83,11 +91,17 @@ fn row(frictions: &WallFrictions, places: &[WallPlace]) -> Vec<f64> {
                 .iter()
                 .filter(move |wall| wall.place == *place)
         };
-        let [x, y, z] = [0, 1, 2].map(|axis| mean(own().map(|wall| wall.stress[axis])));
-        let u = mean(own().map(|wall| wall.friction_velocity));
-        let y_plus = mean(own().map(|wall| wall.y_plus));
+        // Each area over that of a side of a cell: 1 along the grid.
+        let whole: f64 = own().map(sides).sum();
+        let mean = |value: &dyn Fn(&WallFriction) -> f64| match whole > 0.0 {
+            true => own().map(|wall| sides(wall) * value(wall)).sum::<f64>() / whole,
+            false => 0.0,
+        };
+        let [x, y, z] = [0, 1, 2].map(|axis| mean(&|wall| wall.stress[axis]));
+        let u = mean(&|wall| wall.friction_velocity);
+        let y_plus = mean(&|wall| wall.y_plus);
         let largest = own().map(|wall| wall.y_plus).fold(0.0, f64::max);
-        let area = own().count() as f64 * frictions.cell * frictions.cell;
+        let area = whole * frictions.cell * frictions.cell;
         [area, x, y, z, u, y_plus, largest]
     };
     places.iter().flat_map(of).collect()

@@ -296,8 +296,8 @@ impl Adviser<'_> {
                 self.warn(
                     &format!("solids[{index}].surface"),
                     format!(
-                        "is exact, and in the cells next to the free-slip face {} it has no wall model: there it brakes several \
-                         times too much, in a channel of 20 cells the whole flow; make this face and the opposite one periodic",
+                        "is exact, and in the cells next to the free-slip face {} it has no wall model: friction there is that of the grid and \
+                         brakes the flow over the width of a narrow channel; make this face and the opposite one periodic",
                         face.name()
                     ),
                 );

@@ -190,19 +190,22 @@ impl LatticeFluid {
 mod tests {
     use super::*;
 
-    /// The bulk velocity after 6000 steps in units of the prescribed one, if friction slows the flow down at the given rate and at
-    /// a rate proportional to the velocity.
-    fn after(linear: f64, quadratic: f64) -> f64 {
-        let target = 0.05;
-        let mut control = FlowControl {
+    fn control() -> FlowControl {
+        FlowControl {
             axis: 0,
-            target,
+            target: 0.05,
             base: [0.0; 3],
             rate: 0.25 / TIME,
             usual: 1e-6,
             largest: 5e-4,
             state: FlowControlState::start(1e-6),
-        };
+        }
+    }
+
+    /// The bulk velocity after 6000 steps in units of the prescribed one, if friction slows the flow down at the given rate and at
+    /// a rate proportional to the velocity.
+    fn after(linear: f64, quadratic: f64) -> f64 {
+        let mut control = control();
         let mut velocity: f64 = 0.0;
         for step in 1..=6000 {
             let friction = (linear + quadratic * velocity.abs()) * velocity;
@@ -211,10 +214,9 @@ mod tests {
                 control.follow(velocity);
             }
         }
-        velocity / target
+        velocity / control.target
     }
 
-    /// With a rate of 1 / (4 T), friction of 1e-2 would leave three quarters of the error.
     #[test]
     fn the_force_finds_any_friction() {
         for (linear, quadratic) in [
@@ -231,15 +233,7 @@ mod tests {
 
     #[test]
     fn a_flow_that_cannot_move_is_pushed_with_the_largest_force() {
-        let mut control = FlowControl {
-            axis: 0,
-            target: 0.05,
-            base: [0.0; 3],
-            rate: 0.25 / TIME,
-            usual: 1e-6,
-            largest: 5e-4,
-            state: FlowControlState::start(1e-6),
-        };
+        let mut control = control();
         for _ in 0..100_000 {
             control.follow(0.0);
         }

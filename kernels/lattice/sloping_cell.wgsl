@@ -3,8 +3,9 @@
 
 // A cell at such a face.
 struct SlopingCell {
-    // The face x-, x+, ... nearest to the sloping one, SLOPE_TOP if the cell is the uppermost full one of its column, and from the
-    // bit SLOPE_CELLS on the number of cells to the one whose velocity the law reads; or NO_SLOPE.
+    // The face x-, x+, ... nearest to the sloping one, SLOPE_TOP if the cell is the uppermost full one of its column, in four bits
+    // from SLOPE_CELLS on the number of cells to the one whose velocity the law reads, and from SLOPE_FREE_SLIP on a bit for each face
+    // x-, x+, ... of the cell that is a free-slip face of the domain; or NO_SLOPE.
     slope: u32,
     // Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
     open: u32,
@@ -22,6 +23,7 @@ struct SlopingCell {
 const NO_SLOPE = 0xffffu;
 const SLOPE_TOP = 8u;
 const SLOPE_CELLS = 4u;
+const SLOPE_FREE_SLIP = 8u;
 
 // Result of the law at such a face of a solid with this velocity.
 fn law_at_slope(face: SlopingCell, velocity: vec3<f32>, roughness: f32) -> SlopingCell {

@@ -2,7 +2,7 @@
 // reflected the populations that arrived. Those that now leave to the fluid get w c.m more, m along the face: the tangential momentum
 // that arrived leaves again, less the stress of the law of the wall times the area of the face in the column of the cell. The
 // surface of the full cells is a staircase; with m, the velocity of the solid along the face crosses its steps.
-// needs sloping_cell, incoming, weights
+// needs sloping_cell, incoming, weights, $mirror
 
 // Changes the populations that leave a full cell of a solid with this velocity; returns what the fluid gains.
 fn exchange_at_slope(face: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f32) -> vec3<f32> {
@@ -13,7 +13,8 @@ fn exchange_at_slope(face: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, sh
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((face.open & (1u << q)) != 0u) {
             let c = vec3<f32>(C[q]);
-            leaving += read_outgoing(around, q) * c;
+            let word = returned(around, face.slope, q);
+            leaving += read_scalar(word.direction, word.scalar) * c;
             columns[0] += (weight(q) * f32(C[q].x)) * c;
             columns[1] += (weight(q) * f32(C[q].y)) * c;
             columns[2] += (weight(q) * f32(C[q].z)) * c;
@@ -33,7 +34,8 @@ fn exchange_at_slope(face: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, sh
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((face.open & (1u << q)) != 0u) {
             let more = weight(q) * dot(vec3<f32>(C[q]), limited);
-            write_outgoing(around, q, read_outgoing(around, q) + more);
+            let word = returned(around, face.slope, q);
+            write_scalar(word.direction, word.scalar, read_scalar(word.direction, word.scalar) + more);
             gained += more * vec3<f32>(C[q]);
         }
     }

@@ -200,6 +200,13 @@ pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -
                 None => "wall_blocks_none",
             },
         )
+        .slot(
+            "mirror",
+            match setup.has_surface_friction() && setup.has_free_slip() {
+                true => "mirror_free_slip",
+                false => "mirror_none",
+            },
+        )
         .text("forces", spread::forces(bindings.vectors, true))
         .text(
             "statistics_planes",

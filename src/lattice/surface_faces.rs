@@ -3,7 +3,7 @@
 //! They do not move and are found once, in f64. [`super::block_friction`] finds those of blocks on the device whenever these have
 //! moved.
 
-use super::{C, Grid, WallCell, geometry::Survey, wall_model::Walls};
+use super::{C, Face, Grid, WallCell, geometry::Survey, wall_model::Walls};
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};
@@ -23,7 +23,8 @@ const NEAR: f64 = 4.5;
 const DIAGONAL: f64 = 0.9;
 /// The cell is the uppermost full one of its column; the number of cells to the one of the law follows.
 pub(super) const TOP: u32 = 8;
-pub(super) const CELLS: u32 = 4;
+const CELLS: u32 = 4;
+const FREE_SLIP: u32 = 8;
 /// The directions through the six faces of a cell.
 const SIDES: u32 = 0x7e;
 
@@ -31,7 +32,8 @@ const SIDES: u32 = 0x7e;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub(super) struct SlopingCell {
-    /// The face x−, x+, … nearest to the sloping one, whether it is the top of its column, and the number of cells to the sample.
+    /// The face x−, x+, … nearest to the sloping one, whether it is the top of its column, the number of cells to the sample, and the
+    /// free-slip faces of the cell.
     pub slope: u32,
     /// Directions from a full cell to cells that are not full, one bit each; 0 in other cells.
     pub open: u32,
@@ -128,6 +130,33 @@ impl Solids<'_> {
         c
     }
 
+    /// The same where free-slip faces mirror the domain.
+    fn mirrored(&self, cell: [u32; 3], c: [i32; 3]) -> Option<[u32; 3]> {
+        let free_slip = self.free_slip(cell);
+        self.neighbour(
+            cell,
+            [0, 1, 2].map(|axis| {
+                let face = 2 * axis + usize::from(c[axis] > 0);
+                if free_slip & 1 << face != 0 {
+                    0
+                } else {
+                    c[axis]
+                }
+            }),
+        )
+    }
+
+    /// The faces of a cell that are free-slip faces of the domain, one bit each.
+    fn free_slip(&self, cell: [u32; 3]) -> u32 {
+        let faces = self.survey.setup.faces.as_flattened().iter().enumerate();
+        let own = faces.filter(|(face, kind)| {
+            let axis = face / 2;
+            let border = [0, self.grid().cells[axis] - 1][face % 2];
+            **kind == Face::FreeSlip && cell[axis] == border
+        });
+        own.fold(0, |bits, (face, _)| bits | 1 << face)
+    }
+
     /// Height of the solid above the centre of a cell, along `out`, where its column is solid, then cut, then fluid.
     fn height(&self, cell: [u32; 3], axis: usize, out: i32) -> Option<f64> {
         let mut height = self.fraction(cell) - 0.5;
@@ -151,7 +180,7 @@ impl Solids<'_> {
     /// Slope of the surface along an axis, where it is flat.
     fn slope(&self, cell: [u32; 3], axis: usize, out: i32, along: usize) -> Option<f64> {
         let side = |by| {
-            let other = self.neighbour(cell, Self::step(along, by))?;
+            let other = self.mirrored(cell, Self::step(along, by))?;
             self.height(other, axis, out)
         };
         let height = self.height(cell, axis, out)?;
@@ -168,7 +197,7 @@ impl Solids<'_> {
         // Towards less solid, with the weights of Youngs 1984.
         let mut less = DVec3::ZERO;
         for (q, &c) in C.iter().enumerate().skip(1) {
-            let other = self.neighbour(cell, c)?;
+            let other = self.mirrored(cell, c)?;
             let fraction = self.fraction(other);
             let is_plane = self.plane.contains(&(self.grid().index(other) as u32));
             if fraction < 1.0 && !is_plane {
@@ -221,7 +250,10 @@ impl Solids<'_> {
             }
             let face = (2 * axis) as u32 + u32::from(out > 0);
             let slope = SlopingCell {
-                slope: face | if top { TOP } else { 0 } | (k as u32) << CELLS,
+                slope: face
+                    | if top { TOP } else { 0 }
+                    | (k as u32) << CELLS
+                    | self.free_slip(cell) << FREE_SLIP,
                 open: if is_full { open } else { 0 },
                 sample: self.grid().scalar_of(at),
                 distance: distance as f32,
@@ -231,6 +263,13 @@ impl Solids<'_> {
             return Some(Found { slope, above });
         }
         None
+    }
+}
+
+impl SlopingCell {
+    /// Number of cells to the one whose velocity the law reads.
+    pub fn cells(&self) -> u32 {
+        self.slope >> CELLS & 15
     }
 }
 
@@ -307,7 +346,10 @@ impl SurfaceFaces {
         let each = self.cells.iter().zip(&self.slopes);
         each.flat_map(move |(cell, slope)| {
             let open = (1..27).filter(|q| slope.open & (1 << q) != 0);
-            open.map(move |q| grid.index(grid.neighbour(grid.padded_cell(cell.cell), C[q])))
+            let cells = open.map(move |q| grid.neighbour(grid.padded_cell(cell.cell), C[q]));
+            cells
+                .filter(|&cell| grid.contains(cell))
+                .map(|cell| grid.index(cell))
         })
     }
 

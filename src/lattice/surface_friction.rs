@@ -7,7 +7,7 @@ use super::{
     cell_kernels::CellDispatch,
     fluid::Dispatch,
     surface::Surface,
-    surface_faces::{CELLS, NearCell, SlopingCell, SurfaceFaces, TOP},
+    surface_faces::{NearCell, SlopingCell, SurfaceFaces, TOP},
     wall_model::model_share,
 };
 use crate::{
@@ -210,7 +210,7 @@ impl Lattice {
                     _ => 0.0,
                 },
                 stress: stress.to_array(),
-                fraction: (slope.slope >> CELLS) as f32 - 0.5 - slope.distance / rise,
+                fraction: slope.cells() as f32 - 0.5 - slope.distance / rise,
                 normal: slope.normal,
                 pad: 0.0,
             }

@@ -3,8 +3,7 @@
 use std::fmt;
 
 use super::{
-    Boundary, Collision, EddyViscosity, Face, InitialPressure, Numerics, Scene, Shape, Solid,
-    Storage, WallModel,
+    Boundary, Collision, EddyViscosity, Face, InitialPressure, Numerics, Scene, Storage, WallModel,
 };
 use crate::error::{Error, Result};
 use crate::units::Units;
@@ -278,32 +277,14 @@ impl Adviser<'_> {
         }
     }
 
-    /// Warns of exact surfaces where the wall model acts only on walls along the sides of cells: with 16-bit storage, and in terrain
-    /// that meets a free-slip face.
+    /// Warns of exact surfaces with 16-bit storage, where the wall model acts only on walls along the sides of cells.
     fn friction_of_surfaces(&mut self) {
         let scene = self.scene;
         let numerics = &scene.numerics;
-        if numerics.wall_model == WallModel::None {
+        if numerics.wall_model == WallModel::None || numerics.storage == Storage::F32 {
             return;
         }
         let mut solids = scene.solids.iter();
-        if numerics.storage == Storage::F32 {
-            let is_terrain =
-                |solid: &Solid| solid.is_exact() && matches!(solid.shape, Shape::Terrain { .. });
-            let mut sides = Face::ALL[..4].iter();
-            let slips = sides.find(|face| *scene.boundaries.face(**face) == Boundary::FreeSlip);
-            if let Some((face, index)) = slips.zip(solids.position(is_terrain)) {
-                self.warn(
-                    &format!("solids[{index}].surface"),
-                    format!(
-                        "is exact, and in the cells next to the free-slip face {} it has no wall model: friction there is that of the grid and \
-                         brakes the flow over the width of a narrow channel; make this face and the opposite one periodic",
-                        face.name()
-                    ),
-                );
-            }
-            return;
-        }
         if let Some(index) = solids.position(|solid| solid.is_exact()) {
             self.warn(
                 &format!("solids[{index}].surface"),

@@ -459,10 +459,17 @@ fn friction_of_exact_surfaces() {
         (Storage::F16, 2, 2, [4, 2, 4]),
     ];
     for (n, (storage, lanes, axis, brick)) in layouts.into_iter().enumerate() {
-        for (nu, with_block) in [(3e-3, true), (2e-5, false), (1e-6, true)] {
+        let free_slip = [&[][..], &[0, 2], &[0]];
+        for ((nu, with_block), sides) in [(3e-3, true), (2e-5, false), (1e-6, true)]
+            .into_iter()
+            .zip(free_slip)
+        {
             let mut setup = Setup::periodic(cells.map(|n| n as u32), nu);
             (setup.storage, setup.lanes, setup.lane_axis, setup.brick) =
                 (storage, lanes, axis, brick);
+            for &side in sides {
+                setup.faces[side] = [Face::FreeSlip, Face::FreeSlip];
+            }
             // Without the guard ten storage buffers are enough.
             setup.max_speed = 0.0;
             setup.faces[1] = [Face::Wall([0.0; 3]), Face::FreeSlip];
@@ -497,7 +504,7 @@ fn friction_of_exact_surfaces() {
             if with_block {
                 put(&mut subject);
             }
-            let name = format!("{storage:?}, {lanes} lanes, nu {nu}");
+            let name = format!("{storage:?}, {lanes} lanes, nu {nu}, free slip {sides:?}");
             for steps in [1, 1, 3] {
                 subject.rig.run(&mut subject.lattice, steps);
                 subject.twin.run(steps);

@@ -144,7 +144,11 @@ impl Domain {
     }
 
     /// The cell in direction `c` without the components that leave the domain, and the faces through which those leave.
-    fn walk(&self, mut position: [usize; 3], c: [i32; 3]) -> ([usize; 3], [Option<usize>; 3]) {
+    pub(super) fn walk(
+        &self,
+        mut position: [usize; 3],
+        c: [i32; 3],
+    ) -> ([usize; 3], [Option<usize>; 3]) {
         let mut crossed = [None; 3];
         for axis in 0..3 {
             let n = self.cells[axis];

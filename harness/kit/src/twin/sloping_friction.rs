@@ -41,12 +41,13 @@ struct Sloping {
     share: f64,
 }
 
-/// Solids as columns of cells see them: the fraction in a cell, the fraction of a full one, and the cell next to one along an axis,
-/// if a column may pass through it.
+/// Solids as columns of cells see them: the fraction in a cell, the fraction of a full one, the cell next to one along an axis, if a
+/// column may pass through it, and the cell or mirror image in a direction.
 struct Columns<'a> {
     fraction: &'a dyn Fn(usize) -> f64,
     full: f64,
     step: &'a dyn Fn(usize, usize, i32) -> Option<usize>,
+    around: &'a dyn Fn(usize, [i32; 3]) -> Option<usize>,
 }
 
 impl Columns<'_> {
@@ -71,6 +72,12 @@ impl Columns<'_> {
         let down = until(-out, &|e| e >= self.full)?;
         Some(up - down[1..].iter().map(|e| 1.0 - e).sum::<f64>() - 0.5)
     }
+}
+
+fn along(axis: usize, step: i32) -> [i32; 3] {
+    let mut c = [0; 3];
+    c[axis] = step;
+    c
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -112,18 +119,16 @@ impl Twin {
         if self.domain.solid[cell] || !sides().all(inside) || self.is_at_aligned_face(cell) {
             return None;
         }
+        let around = |at, c| Some(self.diagonal(at, direction(c)));
         let columns = Columns {
             fraction: &|at| self.solid_in(at).fraction,
             full: FULL,
             step: &|at, axis, out| self.domain.fluid_neighbour(at, axis, out),
+            around: &around,
         };
         // Columns of solid pass through every cell.
         let solid = Columns {
-            step: &|at, axis, out| {
-                let mut step = [0; 3];
-                step[axis] = out;
-                Some(self.diagonal(at, direction(step)))
-            },
+            step: &|at, axis, out| around(at, along(axis, out)),
             ..columns
         };
         let open = |_: usize| true;
@@ -144,7 +149,7 @@ impl Twin {
         let mut less = [0.0; 3];
         let mut open = Vec::new();
         for q in 1..Q {
-            let other = self.diagonal(cell, q);
+            let other = (columns.around)(cell, C[q])?;
             let fraction = (columns.fraction)(other);
             if fraction < columns.full && is_open(other) {
                 open.push(q);
@@ -163,8 +168,8 @@ impl Twin {
         let other = || (less[axes[1]].abs() > DIAGONAL * less[axes[0]].abs()).then_some(axes[1]);
         let (axis, height) = column(axes[0]).or_else(|| column(other()?))?;
         let out = out_along(axis);
-        let slope = |along: usize| {
-            let side = |step| heights.height((columns.step)(cell, along, step)?, axis, out);
+        let slope = |side: usize| {
+            let side = |step| heights.height((columns.around)(cell, along(side, step))?, axis, out);
             let (before, after) = (side(-1)?, side(1)?);
             let slope = 0.5 * (after - before);
             let is_flat = (before + after - 2.0 * height).abs() <= FLAT && slope.abs() < STEEP;
@@ -291,19 +296,16 @@ impl Twin {
         plane: &HashSet<usize>,
         blocks: &[bool],
     ) -> Option<Sloping> {
-        let step = |at: usize, axis: usize, out: i32| {
-            let mut c = [0; 3];
-            c[axis] = out;
-            self.inside(at, c)
-        };
+        let step = |at: usize, axis: usize, out: i32| self.inside(at, along(axis, out));
+        let around = |at: usize, c: [i32; 3]| Some(self.mirrored(at, direction(c))?.0);
         let columns = Columns {
             fraction: &|at| self.at_rest(at),
             full: 1.0,
             step: &step,
+            around: &around,
         };
         let is_cut = |at: usize| (self.at_rest(at) % 1.0) > 0.0;
-        let around: Option<Vec<usize>> = (1..Q).map(|q| self.inside(cell, C[q])).collect();
-        let near_cut = around?.into_iter().any(is_cut);
+        let near_cut = C.iter().filter_map(|&c| around(cell, c)).any(is_cut);
         let is_full = self.domain.solid[cell] && near_cut;
         if !is_cut(cell) && !is_full {
             return None;
@@ -378,15 +380,17 @@ impl Twin {
     /// Applies the stress to the populations that full cells have returned.
     pub(super) fn exchange_at_surface(&mut self) {
         for (cell, face) in self.faces_at_rest(true) {
-            let to = |q: usize| self.diagonal(cell, q);
-            let leaving = std::array::from_fn(|q| match face.open.contains(&q) {
-                true => self.f[to(q)][q],
-                false => 0.0,
-            });
+            let open = face.open.iter();
+            let returned: Vec<_> = open
+                .filter_map(|&q| Some((q, self.mirrored(cell, q)?)))
+                .collect();
+            let mut leaving = [0.0; Q];
+            for &(q, (other, reflected)) in &returned {
+                leaving[q] = self.f[other][reflected];
+            }
             let gain = face.gain([0.0; 3], &leaving);
-            for q in face.open {
-                let other = self.diagonal(cell, q);
-                self.f[other][q] += gain[q];
+            for (q, (other, reflected)) in returned {
+                self.f[other][reflected] += gain[q];
             }
         }
     }
@@ -407,6 +411,22 @@ impl Twin {
         let u = [0, 1, 2].map(|a| (0..Q).map(|q| c(q)[a] * f[q]).sum::<f64>() / rho);
         let away = dot(u, face.normal);
         [0, 1, 2].map(|a| face.share * (u[a] - away * face.normal[a]))
+    }
+
+    /// The cell in a direction, or that of which it is the mirror image beyond a free-slip face, and the reflected direction; none
+    /// beyond other faces.
+    fn mirrored(&self, cell: usize, q: usize) -> Option<(usize, usize)> {
+        let (to, crossed) = self.domain.walk(self.domain.position(cell), C[q]);
+        let mut reflected = C[q];
+        for (axis, face) in crossed.into_iter().enumerate() {
+            if let Some(face) = face {
+                if !matches!(self.domain.faces[face], super::domain::Face::FreeSlip) {
+                    return None;
+                }
+                reflected[axis] = -reflected[axis];
+            }
+        }
+        Some((self.domain.index(to), direction(reflected)))
     }
 
     /// The cell next to one, across periodic faces too; none outside the domain.

@@ -227,7 +227,7 @@ impl Geometry {
             0 => Beyond::Fluid,
             _ => survey.beyond(cell, q),
         });
-        let modelled = survey.plain_wall(cell, &surroundings);
+        let modelled = survey.modelled(cell, &surroundings);
         let mut moving = MovingCell {
             cell: survey.padded_index(cell),
             through: [0; 3],
@@ -245,7 +245,7 @@ impl Geometry {
             match beyond {
                 Beyond::Fluid => {}
                 // The wall model has their links.
-                Beyond::Wall if modelled.is_some() => {}
+                Beyond::Wall if modelled.is_some_and(|faces| faces.has_link(q)) => {}
                 Beyond::Wall => self.links.push(survey.link(cell, q, cell, enters)),
                 Beyond::Moving(axis) => moving.through[axis] |= 1 << q,
                 Beyond::Slip(axes) => {
@@ -281,8 +281,8 @@ impl Geometry {
             .iter()
             .filter(|b| **b == Beyond::Wall)
             .count() as u64;
-        if let Some(face) = modelled {
-            self.walls.push(survey, cell, face);
+        if let Some(faces) = modelled {
+            self.walls.push(survey, cell, faces);
         }
         bits
     }

@@ -17,6 +17,8 @@ use std::collections::HashSet;
 
 /// Directions into a plane wall.
 const LINKS: usize = 9;
+/// Directions with a component along the edge between two walls that lead into one of these.
+const EDGE_LINKS: usize = 10;
 /// Number of fluid cells in front of a wall that the model needs.
 const DEPTH: u32 = 5;
 /// Number of these whose eddy viscosity follows from the wall.
@@ -51,43 +53,82 @@ pub struct WallStress {
 /// The walls of the model.
 #[derive(Debug, Default)]
 pub struct Walls {
-    /// Cells at plane walls at rest, by the face and the order of memory.
+    /// Cells at plane walls at rest, by the face and the order of memory; then those at edges between two such walls, twice each.
     pub cells: Vec<WallCell>,
     /// Faces of fluid cells that are walls at rest, those of the model and all others.
     pub area: u64,
-    /// Links of each cell into the wall, by their tangential direction.
+    /// Links of each cell into the plane wall, by their tangential direction.
     links: Vec<[Link; LINKS]>,
+    /// Faces of the cells at edges, and their links along the edge.
+    edges: Vec<([WallCell; 2], [Link; EDGE_LINKS])>,
+}
+
+/// The faces of a cell where the model acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Modelled {
+    /// A plane wall.
+    Plane(usize),
+    /// Two walls that meet at an edge, by ascending axis.
+    Edge([usize; 2]),
+}
+
+impl Modelled {
+    /// Whether the model has the link in a direction that leads into a wall.
+    pub fn has_link(self, q: usize) -> bool {
+        match self {
+            Self::Plane(_) => true,
+            Self::Edge([a, b]) => C[q][along_edge(a, b)] != 0,
+        }
+    }
+}
+
+/// The axis of the edge between two faces.
+fn along_edge(a: usize, b: usize) -> usize {
+    3 - a / 2 - b / 2
+}
+
+/// The direction out of a cell through a face.
+fn through(face: usize) -> [i32; 3] {
+    let mut c = [0; 3];
+    c[face / 2] = [-1, 1][face % 2];
+    c
+}
+
+fn direction(c: [i32; 3]) -> usize {
+    C.iter().position(|other| *other == c).unwrap_or_default()
 }
 
 impl Walls {
-    /// Adds a cell whose face is a plane wall.
-    pub(super) fn push(&mut self, survey: &Survey<'_>, cell: [u32; 3], face: usize) {
-        let (axis, side) = (face / 2, face % 2);
-        let setup = survey.setup;
-        let at_end = cell[axis] == [0, survey.grid.cells[axis] - 1][side];
-        let roughness = if at_end && !setup.periodic_axes()[axis] {
-            setup.wall_roughness[axis][side] as f32
-        } else if setup.solid_roughness.is_empty() {
-            0.0
-        } else {
-            let mut out = [0; 3];
-            out[axis] = [-1, 1][side];
-            setup.solid_roughness[survey.grid.index(survey.grid.neighbour(cell, out))]
-        };
-        self.cells.push(WallCell {
-            cell: survey.padded_index(cell),
-            face: face as u32,
-            layers: 0,
-            roughness,
-        });
-        let (a, b) = in_plane(axis);
-        self.links.push(std::array::from_fn(|j| {
-            let mut c = [0; 3];
-            c[axis] = [-1, 1][side];
-            (c[a], c[b]) = (j as i32 % 3 - 1, j as i32 / 3 - 1);
-            let into = C.iter().position(|other| *other == c).unwrap_or_default();
+    /// Adds the faces of a cell.
+    pub(super) fn push(&mut self, survey: &Survey<'_>, cell: [u32; 3], faces: Modelled) {
+        let link = |c| {
+            let into = direction(c);
             survey.link(cell, into, cell, opposite(into))
-        }));
+        };
+        match faces {
+            Modelled::Plane(face) => {
+                self.cells.push(survey.wall_cell(cell, face));
+                let (a, b) = in_plane(face / 2);
+                self.links.push(std::array::from_fn(|j| {
+                    let mut c = through(face);
+                    (c[a], c[b]) = (j as i32 % 3 - 1, j as i32 / 3 - 1);
+                    link(c)
+                }));
+            }
+            Modelled::Edge([a, b]) => {
+                let (out_a, out_b) = (through(a), through(b));
+                // Multiples of the directions out of the cell through both faces.
+                let parts = [(1, 0), (0, 1), (1, 1), (1, -1), (-1, 1)];
+                let links = std::array::from_fn(|j| {
+                    let (part_a, part_b) = parts[j / 2];
+                    let mut c = [0, 1, 2].map(|axis| part_a * out_a[axis] + part_b * out_b[axis]);
+                    c[along_edge(a, b)] = [-1, 1][j % 2];
+                    link(c)
+                });
+                let cells = [a, b].map(|face| survey.wall_cell(cell, face));
+                self.edges.push((cells, links));
+            }
+        }
     }
 
     /// Sorts the cells, and assigns each fluid cell near a wall to the nearest wall.
@@ -101,6 +142,10 @@ impl Walls {
         self.cells = order.iter().map(|&n| self.cells[n]).collect();
         self.links = order.iter().map(|&n| self.links[n]).collect();
         let mut taken = HashSet::new();
+        for ([first, _], _) in &mut self.edges {
+            first.layers = 1;
+            taken.insert(grid.padded_cell(first.cell));
+        }
         for layer in 0..LAYERS {
             for wall in &mut self.cells {
                 let mut inward = [0; 3];
@@ -112,6 +157,8 @@ impl Walls {
                 }
             }
         }
+        let of_edges = self.edges.iter().flat_map(|(cells, _)| cells);
+        self.cells.extend(of_edges.copied());
     }
 }
 
@@ -135,36 +182,71 @@ pub(super) fn model_share(friction: f32, nu: f64) -> f32 {
 }
 
 impl Survey<'_> {
-    /// The face of a cell where the model acts: the nine directions through it lead to walls at rest, and no other one does,
-    /// or through an open or moving face, and five cells of fluid lie before it.
-    pub(super) fn plain_wall(&self, cell: [u32; 3], beyond: &[Beyond; 27]) -> Option<usize> {
+    /// The faces of a cell where the model acts: the directions through one or two faces lead to walls at rest, and no other one does,
+    /// or through an open or moving face, and five cells of fluid lie before each.
+    pub(super) fn modelled(&self, cell: [u32; 3], beyond: &[Beyond; 27]) -> Option<Modelled> {
         self.setup.wall_model?;
-        let through = |face: usize| {
-            let (axis, out) = (face / 2, [-1, 1][face % 2]);
-            (1..27).all(|q| match beyond[q] {
-                Beyond::Wall => C[q][axis] == out,
-                Beyond::Fluid | Beyond::Slip(_) => C[q][axis] != out,
-                Beyond::Moving(_) | Beyond::Open(..) => false,
-            })
+        let is_wall = |face: &usize| beyond[direction(through(*face))] == Beyond::Wall;
+        let walls: Vec<usize> = (0..6).filter(is_wall).collect();
+        let found = match walls[..] {
+            [face] => Modelled::Plane(face),
+            [a, b] if a / 2 != b / 2 => Modelled::Edge([a, b]),
+            _ => return None,
         };
-        let face = (0..6).find(|&face| through(face))?;
-        let mut inward = [0; 3];
-        inward[face / 2] = [1, -1][face % 2];
-        let q = C.iter().position(|c| *c == inward)?;
+        let leads_out = |q: usize| {
+            let is_through = |face: &usize| C[q][face / 2] == [-1, 1][face % 2];
+            walls.iter().any(is_through)
+        };
+        let are_alone = (1..27).all(|q| match beyond[q] {
+            Beyond::Wall => leads_out(q),
+            Beyond::Fluid | Beyond::Slip(_) => !leads_out(q),
+            Beyond::Moving(_) | Beyond::Open(..) => false,
+        });
+        let have_fluid = || walls.iter().all(|&face| self.has_depth(cell, face));
+        (are_alone && have_fluid()).then_some(found)
+    }
+
+    /// Whether five cells of fluid lie before a face.
+    fn has_depth(&self, cell: [u32; 3], face: usize) -> bool {
+        let inward = through(face).map(|c| -c);
+        let q = direction(inward);
         let mut at = cell;
         for _ in 1..DEPTH {
             if self.is_surface(at) || self.beyond(at, q) != Beyond::Fluid {
-                return None;
+                return false;
             }
             at = self.grid.neighbour(at, inward);
         }
-        (!self.is_surface(at)).then_some(face)
+        !self.is_surface(at)
+    }
+
+    fn wall_cell(&self, cell: [u32; 3], face: usize) -> WallCell {
+        let (axis, side) = (face / 2, face % 2);
+        let setup = self.setup;
+        let at_end = cell[axis] == [0, self.grid.cells[axis] - 1][side];
+        let roughness = if at_end && !setup.periodic_axes()[axis] {
+            setup.wall_roughness[axis][side] as f32
+        } else if setup.solid_roughness.is_empty() {
+            0.0
+        } else {
+            setup.solid_roughness[self.grid.index(self.grid.neighbour(cell, through(face)))]
+        };
+        WallCell {
+            cell: self.padded_index(cell),
+            face: face as u32,
+            layers: 0,
+            roughness,
+        }
     }
 }
 
 /// The walls of one dispatch.
 #[derive(Debug)]
 pub(super) struct WallPart {
+    /// Kernels that apply the law, and that set only the eddy viscosity.
+    entries: [&'static str; 2],
+    /// Invocations of these.
+    invocations: u32,
     cells: wgpu::Buffer,
     links: wgpu::Buffer,
     /// Results of the last step.
@@ -177,25 +259,42 @@ pub(super) struct WallPart {
 impl WallPart {
     /// The walls of a geometry.
     pub fn all(device: &wgpu::Device, setup: &Setup, walls: &Walls) -> Vec<Self> {
-        let most = largest_binding(&device.limits()) as usize / size_of::<[Link; LINKS]>();
-        let parts = walls
-            .cells
-            .chunks(most.max(1))
-            .zip(walls.links.chunks(most.max(1)));
-        let part = |(cells, own): (&[WallCell], &[[Link; LINKS]])| {
-            let links: Vec<Link> = (0..LINKS)
-                .flat_map(|j| own.iter().map(move |links| links[j]))
-                .collect();
-            let result = |label, bytes| zeroed(device, label, bytes * cells.len() as u64);
-            Self {
-                cells: storage(device, "wall cells", bytemuck::cast_slice(cells)),
-                links: storage(device, "wall links", bytemuck::cast_slice(&links)),
-                stress: result("wall stress", size_of::<WallStress>() as u64),
-                blocks: setup.solid_operator.map(|_| result("walls with blocks", 4)),
-                count: cells.len() as u32,
-            }
-        };
-        parts.map(part).collect()
+        let largest = largest_binding(&device.limits()) as usize;
+        let most = |bytes: usize| (largest / bytes).max(1);
+        let planes = most(size_of::<[Link; LINKS]>());
+        let planes = walls.cells.chunks(planes).zip(walls.links.chunks(planes));
+        let planes = planes.map(|(cells, links)| {
+            let entries = ["wall_model", "near_wall"];
+            Self::new(device, setup, entries, &cells[..links.len()], links)
+        });
+        let edges = most(size_of::<[Link; EDGE_LINKS]>());
+        let edges = walls.edges.chunks(edges).map(|own| {
+            let cells: Vec<_> = own.iter().flat_map(|(cells, _)| *cells).collect();
+            let links: Vec<_> = own.iter().map(|(_, links)| *links).collect();
+            Self::new(device, setup, ["wall_edges", "near_edges"], &cells, &links)
+        });
+        planes.chain(edges).collect()
+    }
+
+    fn new<const N: usize>(
+        device: &wgpu::Device,
+        setup: &Setup,
+        entries: [&'static str; 2],
+        cells: &[WallCell],
+        own: &[[Link; N]],
+    ) -> Self {
+        let each = (0..N).flat_map(|j| own.iter().map(move |links| links[j]));
+        let links: Vec<Link> = each.collect();
+        let result = |label, bytes| zeroed(device, label, bytes * cells.len() as u64);
+        Self {
+            entries,
+            invocations: own.len() as u32,
+            cells: storage(device, "wall cells", bytemuck::cast_slice(cells)),
+            links: storage(device, "wall links", bytemuck::cast_slice(&links)),
+            stress: result("wall stress", size_of::<WallStress>() as u64),
+            blocks: setup.solid_operator.map(|_| result("walls with blocks", 4)),
+            count: cells.len() as u32,
+        }
     }
 
     /// Bytes of its buffers.
@@ -211,7 +310,7 @@ impl WallPart {
 impl Lattice {
     /// The passes over the walls of the model in a step of the given parity.
     pub(super) fn wall_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
-        self.passes_of_walls(device, "wall_model", odd)
+        self.passes_of_walls(device, 0, odd)
     }
 
     /// Evaluates the law for a complete state, and sets the eddy viscosity next to walls unless it is `known`; in a step the
@@ -226,7 +325,7 @@ impl Lattice {
         let mut passes = self.surface_laws(device, odd)?;
         match known {
             true => passes.truncate(1),
-            false => passes.extend(self.passes_of_walls(device, "near_wall", odd)?),
+            false => passes.extend(self.passes_of_walls(device, 1, odd)?),
         }
         let mut encoder = device.create_command_encoder(&Default::default());
         {
@@ -242,7 +341,7 @@ impl Lattice {
     fn passes_of_walls(
         &self,
         device: &wgpu::Device,
-        entry: &'static str,
+        entry: usize,
         odd: u32,
     ) -> Result<Vec<Dispatch>> {
         let program = self.cell_program("wall_model");
@@ -257,11 +356,11 @@ impl Lattice {
             for half in self.halves() {
                 let dispatch = CellDispatch {
                     program: &program,
-                    entry,
-                    pass: cell_pass(odd, half, &(0..part.count as usize)),
+                    entry: part.entries[entry],
+                    pass: cell_pass(odd, half, &(0..part.invocations as usize)),
                     buffers: &buffers,
                     constants: &[],
-                    invocations: part.count,
+                    invocations: part.invocations,
                 };
                 passes.push(self.cell_dispatch(device, &dispatch)?);
             }

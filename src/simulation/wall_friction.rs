@@ -57,7 +57,7 @@ pub struct WallFrictions {
     pub walls: Vec<WallFriction>,
     /// Edge of a cell, m.
     pub cell: f64,
-    /// Fraction of the area of walls and solids at rest on which the model acts; corners, edges, gaps under five cells and
+    /// Fraction of the area of walls and solids at rest on which the model acts; corners, convex edges, gaps under five cells and
     /// cells at open or moving faces are no-slip.
     pub area_share: f64,
     /// The same fraction of the faces of blocks; 0 without blocks.

@@ -103,37 +103,40 @@ fn laminar_walls_have_no_slip_to_the_bit() {
 
 #[test]
 fn the_fluid_loses_what_the_walls_receive() {
-    let rig = Rig::new();
-    let mut setup = channel(2, 1e-5);
-    let force = 2e-5;
-    setup.force = Force::Constant([force, 0.0, 0.0]);
-    let cells = 8.0 * 8.0 * 11.0;
-    let mut lattice = rig.start(setup, &waves([8, 8, 11], 0.03), true);
-    // Momentum along x of the populations that are complete before a step.
-    let mut before: Option<f64> = None;
-    for _ in 0..20 {
-        rig.run(&mut lattice, 1);
-        let populations = rig.populations(&mut lattice);
-        let own = (0..27).map(|q| {
-            let c = f64::from(riprap::lattice::C[q][0]);
-            let values = &populations.values[q * 704..(q + 1) * 704];
-            c * values.iter().map(|f| f64::from(*f)).sum::<f64>()
-        });
-        let momentum: f64 = own.sum();
-        let walls = rig
-            .wait(lattice.wall_stresses(&rig.device, &rig.queue))
-            .unwrap();
-        assert_eq!(walls.len(), 2 * 8 * 8);
-        assert!(walls.iter().all(|wall| wall.share == 1.0));
-        let received: f64 = walls.iter().map(|wall| f64::from(wall.stress[0])).sum();
-        if let Some(before) = before {
-            assert_near(
-                momentum - before,
-                force * cells - received,
-                1e-7 * cells * 0.03,
-            );
+    for (side, count) in [(Face::Periodic, 2 * 8 * 8), (WALL, 2 * 8 * (8 + 11))] {
+        let rig = Rig::new();
+        let mut setup = channel(2, 1e-5);
+        setup.faces[1] = [side.clone(), side];
+        let force = 2e-5;
+        setup.force = Force::Constant([force, 0.0, 0.0]);
+        let cells = 8.0 * 8.0 * 11.0;
+        let mut lattice = rig.start(setup, &waves([8, 8, 11], 0.03), true);
+        // Momentum along x of the populations that are complete before a step.
+        let mut before: Option<f64> = None;
+        for _ in 0..20 {
+            rig.run(&mut lattice, 1);
+            let populations = rig.populations(&mut lattice);
+            let own = (0..27).map(|q| {
+                let c = f64::from(riprap::lattice::C[q][0]);
+                let values = &populations.values[q * 704..(q + 1) * 704];
+                c * values.iter().map(|f| f64::from(*f)).sum::<f64>()
+            });
+            let momentum: f64 = own.sum();
+            let walls = rig
+                .wait(lattice.wall_stresses(&rig.device, &rig.queue))
+                .unwrap();
+            assert_eq!(walls.len(), count);
+            assert!(walls.iter().all(|wall| wall.share == 1.0));
+            let received: f64 = walls.iter().map(|wall| f64::from(wall.stress[0])).sum();
+            if let Some(before) = before {
+                assert_near(
+                    momentum - before,
+                    force * cells - received,
+                    1e-7 * cells * 0.03,
+                );
+            }
+            before = Some(momentum);
         }
-        before = Some(momentum);
     }
 }
 

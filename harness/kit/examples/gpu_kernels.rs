@@ -200,6 +200,7 @@ impl Output<'_> {
             ("moving_wall", "move_wall"),
             ("synthetic_turbulence", "feed_turbulence"),
             ("wall_model", "wall_model"),
+            ("wall_model", "wall_edges"),
             ("mark_blocks", "mark_blocks"),
             ("block_friction", "find_faces"),
             ("block_friction", "list_outer_cells"),

@@ -358,7 +358,7 @@ impl Report {
             lines.add(
                 "wall model",
                 format_args!(
-                    "on {share:.1} % of the area of walls at rest; no slip at edges, in corners, in gaps under five cells, \
+                    "on {share:.1} % of the area of walls at rest; no slip at convex edges, in corners, in gaps under five cells, \
                      and beside open and moving faces"
                 ),
             );

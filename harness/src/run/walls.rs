@@ -54,7 +54,7 @@ impl fmt::Display for WallModelSummary {
         write!(
             f,
             "  wall model on {:.1} % of the area of walls{blocks}: y⁺ half a cell from them {:.1} on average, \
-             {:.1} at most, stress {:.3e} Pa; the others have no slip (corners, edges, gaps under five cells, faces that lie across \
+             {:.1} at most, stress {:.3e} Pa; the others have no slip (corners, convex edges, gaps under five cells, faces that lie across \
              cells, open and moving faces)",
             100.0 * self.area_share,
             self.y_plus_mean,

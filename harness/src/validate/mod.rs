@@ -152,6 +152,7 @@ pub const CASES: &[Case] = &[
     long("wale/channel-re-tau-180", "turbulent channel at Re_τ 180 (Moser, Kim & Mansour 1999); needs a GPU", wale::turbulent_channel),
     short("wall-model/channel", "turbulent channels with a wall model (Lee & Moser 2015)", wall_model::channel),
     short("wall-model/rough-channel", "water over a rough bed, with a wall model (Keulegan 1938)", wall_model::rough_channel),
+    long("wall-model/duct", "turbulent flow in a square duct, with a wall model (Prandtl 1935)", wall_model::duct),
     long("wall-model/blocks", "turbulent channel between plates that are blocks, with a wall model (Lee & Moser 2015)", wall_model::blocks),
     long("wall-model/rods", "stream along square rods at angles to the grid, with a wall model (Lee & Moser 2015)", wall_model::rods),
     long("wall-model/surfaces", "stream along rods with oblique exact surfaces, with a wall model (Lee & Moser 2015)", wall_model::surfaces),

@@ -6,7 +6,7 @@ use super::{
 };
 use riprap::{
     lattice::{Face, Force, WallModel},
-    scene::{self, BlockShape, EddyViscosity, Motion, Scene, Shape, Solid, SolidSurface},
+    scene::{self, BlockShape, Boundary, EddyViscosity, Motion, Scene, Shape, Solid, SolidSurface},
 };
 
 /// Initial mean velocity.
@@ -29,6 +29,10 @@ const PLATES: [u32; 3] = [48, 32, 24];
 /// Edge of a square rod, and the periodic box of one rod, cells.
 const ROD: f64 = 24.0;
 const RODS: [u32; 3] = [48, 48, 24];
+
+/// Half of the width of a square duct, and its cells.
+const DUCT_H: f64 = 12.0;
+const DUCT: [u32; 3] = [48, 24, 24];
 
 /// A channel 4 depths long and 2 depths wide, between walls or between a wall and a face without friction.
 #[derive(Clone, Copy, Debug)]
@@ -115,6 +119,66 @@ pub fn rough_channel(context: &CaseContext) -> Outcome {
         records.extend(channel.judge(context)?);
     }
     Ok(records)
+}
+
+/// Mean velocity in a square duct at Re_τ 2400 by its half width, with the model and without: friction is that of a round pipe of the
+/// same ratio of cross-section to perimeter (Prandtl 1935; Pirozzoli et al. 2018).
+pub fn duct(context: &CaseContext) -> Outcome {
+    const REYNOLDS: f64 = 2400.0;
+    // 1/√f = 2 log₁₀(Re √f) − 0.8, where Re √f = √8 · 2 Re_τ and U_b⁺ = √(8/f).
+    let per_root = 2.0 * (8f64.sqrt() * 2.0 * REYNOLDS).log10() - 0.8;
+    let expected = 8f64.sqrt() * per_root;
+    let mut records = Vec::new();
+    for model in [true, false] {
+        let friction = BULK / expected;
+        // Cross-section over perimeter.
+        let h = 0.5 * DUCT_H;
+        let force = friction * friction / h;
+        let scene = duct_scene(friction, friction * DUCT_H / REYNOLDS, force, model)?;
+        let mut tank = Tank::fill(context, &scene)?;
+        let time = DUCT_H / friction;
+        tank.advance(2 * time as u64)?;
+        let each = (time as u64 / SAMPLES) | 1;
+        let cells: f64 = DUCT.map(f64::from).iter().product();
+        let mut bulk = Vec::new();
+        for _ in 0..=SAMPLES {
+            tank.advance(each)?;
+            bulk.push(tank.totals()?.momentum[0] / cells);
+        }
+        let means = mean_and_stress(&bulk, each, h, force);
+        let trial = tank.trial("square duct");
+        let place = if model { "duct" } else { "duct, no model" };
+        records.extend(judge_friction(&trial, place, model, means, expected));
+    }
+    Ok(records)
+}
+
+/// The flow begins with the log law of the nearest wall and vortices along the duct, which break up.
+fn duct_scene(friction: f64, nu: f64, force: f64, model: bool) -> anyhow::Result<Scene> {
+    let mut scene = tank::scene(DUCT, 0.5 + 3.0 * nu)?;
+    tank::close(&mut scene);
+    let faces = &mut scene.boundaries;
+    (faces.x_min, faces.x_max) = (Boundary::Periodic, Boundary::Periodic);
+    scene.numerics.eddy_viscosity = EddyViscosity::Wale;
+    if model {
+        scene.numerics.wall_model = scene::WallModel::WernerWengle;
+    }
+    scene.fluid.acceleration = numbers([force, 0.0, 0.0]);
+    let wall_units = 0.384 * friction / nu;
+    let [x, y, z] = ["x", "y", "z"].map(|axis| format!("(pi*{axis}/{DUCT_H})"));
+    let (width, h) = (2.0 * DUCT_H, DUCT_H);
+    let from_wall = format!("min(min(y, {width} - y), min(z, {width} - z))");
+    let velocity = [
+        format!(
+            "{friction}*(log(1 + {from_wall}*{wall_units})/0.384 + 2) + 0.003*cos{y}*sin{z}*sin{x}"
+        ),
+        format!("0.003*sin(pi*y/{width})*cos({z} + pi*x/{width})"),
+        format!("0.003*sin(pi*z/{width})*cos({y} + pi*x/{h})"),
+    ];
+    for (component, text) in scene.initial.velocity.iter_mut().zip(velocity) {
+        *component = text.parse()?;
+    }
+    Ok(scene)
 }
 
 /// A channel at Re_τ 5200 between plates that are blocks.

@@ -26,7 +26,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
     ),
     (
         "wall_model",
-        &["wall_model", "near_wall"],
+        &["wall_model", "near_wall", "wall_edges", "near_edges"],
         &[
             "cell_pass",
             "wall_cells",

@@ -169,7 +169,9 @@ impl WallModel {
     /// The fluid cells at these walls.
     pub(super) fn plane_cells(&self, domain: &Domain) -> impl Iterator<Item = usize> {
         let walls = self.walls(domain, &[]).into_iter();
-        walls.map(|(wall, _)| wall.cell)
+        let edges = self.edges(domain, &[]).into_iter();
+        let at_edges = edges.map(|([wall, _], _)| wall.cell);
+        walls.map(|(wall, _)| wall.cell).chain(at_edges)
     }
 
     /// Friction on a wall: the tangential velocity that the law reads, the stress over the density, and the share of the model.
@@ -186,10 +188,63 @@ impl WallModel {
         (along, stress, share(stress.sqrt(), nu))
     }
 
+    /// The cells at edges between two such walls, with both, and whether a block is in one of the five cells before these.
+    fn edges(&self, domain: &Domain, blocks: &[bool]) -> Vec<([Wall; 2], bool)> {
+        let mut edges = Vec::new();
+        for cell in (0..domain.cell_count()).filter(|&cell| !domain.solid[cell]) {
+            let sides = (0..3).flat_map(|axis| [0, 1].map(|side| Wall { cell, axis, side }));
+            let straight = |wall: &Wall| {
+                (1..7).any(|i| wall.is_into(i) && matches!(domain.link(cell, i), Link::Bounce))
+            };
+            let walls: Vec<Wall> = sides.filter(straight).collect();
+            let [first, second] = walls[..] else {
+                continue;
+            };
+            let into = |i| first.is_into(i) || second.is_into(i);
+            let are_alone = (1..Q).all(|i| match domain.link(cell, i) {
+                Link::Bounce => into(i),
+                Link::Fluid(_) | Link::Mirror { .. } => !into(i),
+                Link::Moving(_) => false,
+            });
+            let layers = |wall: &Wall| (0..5).map(|n| wall.layer(domain, n)).collect();
+            let before: Option<Vec<usize>> = layers(&first);
+            let beside: Option<Vec<usize>> = layers(&second);
+            let (Some(mut cells), Some(others)) = (before, beside) else {
+                continue;
+            };
+            cells.extend(others);
+            let is_cut = |cell: &usize| self.surface.get(*cell).is_some_and(|e| *e > 0.0);
+            if are_alone && first.axis != second.axis && !cells.iter().any(is_cut) {
+                let blocked = cells.iter().any(|&cell| blocks.get(cell) == Some(&true));
+                edges.push(([first, second], blocked));
+            }
+        }
+        edges
+    }
+
+    /// The axis of an edge; the velocity along it that the law of each wall reads, and the stress of each over the density; the
+    /// friction velocity of the first and the share of both.
+    fn edge_friction(
+        &self,
+        walls: &[Wall; 2],
+        domain: &Domain,
+        nu: f64,
+        u: &[[f64; 3]],
+    ) -> (usize, [f64; 2], [f64; 2], f64, f64) {
+        let axis = 3 - walls[0].axis - walls[1].axis;
+        let read = |wall: &Wall| u[wall.layer(domain, 4).expect("five cells are fluid")][axis];
+        let speeds = [read(&walls[0]), read(&walls[1])];
+        let stress = [0, 1].map(|n| self.stress(&walls[n], domain, speeds[n].abs(), 4.5, nu));
+        let part = share(stress[0].min(stress[1]).sqrt(), nu);
+        let signed = [0, 1].map(|n| stress[n] * speeds[n].signum());
+        (axis, speeds, signed, stress[0].sqrt(), part)
+    }
+
     /// The cells up to four layers from these walls, each with its nearest wall, the layer, and whether a block is near the wall.
     fn near_walls(&self, domain: &Domain, blocks: &[bool]) -> Vec<(usize, Wall, usize, bool)> {
         let mut found = Vec::new();
-        let mut taken = HashSet::new();
+        let edges = self.edges(domain, &[]);
+        let mut taken: HashSet<usize> = edges.iter().map(|([wall, _], _)| wall.cell).collect();
         let mut growing = self.walls(domain, blocks);
         for layer in 0..4 {
             growing.retain(|(wall, blocked)| {
@@ -207,7 +262,9 @@ impl WallModel {
     /// The cells whose smallest eddy viscosity these walls give.
     pub(super) fn cells_near_walls(&self, domain: &Domain) -> HashSet<usize> {
         let near = self.near_walls(domain, &[]).into_iter();
-        near.map(|(cell, ..)| cell).collect()
+        let edges = self.edges(domain, &[]).into_iter();
+        let at_edges = edges.map(|([wall, _], _)| wall.cell);
+        near.map(|(cell, ..)| cell).chain(at_edges).collect()
     }
 
     /// Smallest eddy viscosity of each cell: κ y u_τ of the nearest wall, tapered over four cells. `blocks` marks the cells with
@@ -219,6 +276,12 @@ impl WallModel {
                 let (_, stress, part) = self.friction(&wall, domain, nu, u);
                 let taper = [1.0, 0.75, 0.4, 0.15][layer];
                 found[cell] = taper * 0.4 * (layer as f64 + 0.5) * stress.sqrt() * part;
+            }
+        }
+        for (walls, blocked) in self.edges(domain, blocks) {
+            if !blocked {
+                let (.., friction, part) = self.edge_friction(&walls, domain, nu, u);
+                found[walls[0].cell] = 0.4 * 0.5 * friction * part;
             }
         }
         found
@@ -253,6 +316,25 @@ impl WallModel {
             for i in into() {
                 let c_m: f64 = (0..3).map(|a| f64::from(C[i][a]) * full[a]).sum();
                 own[OPPOSITE[i]] -= 6.0 * W[i] * part * bound * c_m;
+            }
+        }
+        for (walls, blocked) in self.edges(domain, blocks) {
+            let (axis, speeds, stress, _, part) = self.edge_friction(&walls, domain, nu, u);
+            if part == 0.0 || blocked {
+                continue;
+            }
+            let own = &mut f[walls[0].cell];
+            let into: Vec<usize> = (1..Q)
+                .filter(|&i| walls[0].is_into(i) || walls[1].is_into(i))
+                .collect();
+            let along = |i: usize| f64::from(C[i][axis]);
+            let arriving: f64 = into.iter().map(|&i| own[OPPOSITE[i]] * along(i)).sum();
+            let lost: f64 = into.iter().map(|&i| 6.0 * W[i] * along(i) * along(i)).sum();
+            let most = 2.0 * speeds[0].abs().max(speeds[1].abs());
+            let full = (2.0 * arriving - stress[0] - stress[1]) / lost;
+            let m = part * full.clamp(-most, most);
+            for i in into {
+                own[OPPOSITE[i]] -= 6.0 * W[i] * along(i) * m;
             }
         }
     }

@@ -292,7 +292,7 @@ impl DeformingBlocks {
                 // A torque is the skew part of a moment. The springs of a bond act along its normal: their moment is in power with
                 // the rotation of the normal, to which shear of the block contributes.
                 let moment = outer(contact.force.total(), arm)
-                    + couple(contact.force.moment)
+                    + couple(contact.force.moment + contact.force.torsion)
                     + outer(contact.normal, contact.normal.cross(contact.force.bending));
                 self.strains[k as usize].moment += moment * sign;
             }

@@ -200,7 +200,8 @@ fn work(chunk: &mut Chunk, all: &BodyStates<'_>, dt: f64) {
             all.deforming.face_spin(body, state, contact.normal)
         };
         let of_bond = of_face(second) - of_face(first);
-        let spring = -force.spring.dot(velocity) - force.bending.dot(of_bond);
+        let spring =
+            -force.spring.dot(velocity) - force.torsion.dot(spin) - force.bending.dot(of_bond);
         let dashpots = force.dashpot.dot(velocity) + force.moment.dot(spin);
         chunk.dashpots.push(dashpots);
         contact.stored += 0.5 * dt * (contact.power + spring) - force.friction;

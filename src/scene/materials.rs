@@ -30,7 +30,7 @@ pub struct Material {
     /// foundation, and breaks permanently if its tension reaches σ_t at an edge, or if it has slipped by σ_t/k_s; cohesion and
     /// friction remain. Under tension its shear strength is the cohesion alone. A weight applied suddenly, such as that of a
     /// block that hangs from the start, causes up to twice the static force; damping reduces it. Edges, corners and spheres
-    /// have no bonds, and no bond has a spring against twist about its normal. Default 0.
+    /// have no bonds. Default 0.
     #[serde(default)]
     pub tensile_strength: f64,
     /// Damping ratio ζ of a contact's normal motion, no unit, from 0 to below 1. Default 0.1, at

@@ -85,7 +85,11 @@ fn shear_turns_with_a_pair_that_turns_as_one() {
 
 #[test]
 fn shear_turns_by_half_the_twist_of_one_block_about_the_normal() {
-    // Only the second block spins: the mean spin of both is half of that.
+    // Only the second block spins: the mean spin of both is half of that. Nothing slips.
+    let joint = Joint {
+        cohesion: 1e12,
+        ..JOINT
+    };
     let mut history = slid(&JOINT, 1e-4, &History::default()).history;
     let motion = Motion {
         spin: DVec3::Z * (PI / 2.0),
@@ -93,7 +97,7 @@ fn shear_turns_by_half_the_twist_of_one_block_about_the_normal() {
         ..REST
     };
     for _ in 0..100 {
-        history = force(&JOINT, &SECTION, &motion, &history).history;
+        history = force(&joint, &SECTION, &motion, &history).history;
     }
     let turned = DQuat::from_rotation_z(PI / 4.0) * DVec3::X * -1e4;
     assert!((history.shear - turned).length() < 1e-8, "{history:?}");
@@ -201,4 +205,34 @@ fn a_bond_breaks_where_it_bends_the_most_or_has_slipped_as_far_as_it_opens() {
         "{first:?}"
     );
     assert!(!slid(&joint, 0.6e-4, &first).history.bonded);
+}
+
+#[test]
+fn shear_over_the_face_resists_a_twist_about_the_normal_up_to_its_friction() {
+    let twisted = |angle: f64, displacement: f64| {
+        let motion = Motion {
+            displacement: DVec3::X * displacement,
+            spin: DVec3::Z * (angle / REST.time_step),
+            ..REST
+        };
+        let joint = Joint {
+            damping: 0.0,
+            ..JOINT
+        };
+        force(&joint, &SECTION, &motion, &History::default())
+    };
+    // k_s A²/6 = 33.3 MN m; F = 200 kN tan 30°, T_max = 0.3826 √2 F.
+    let most = 2e5 * (PI / 6.0).tan();
+    let twist = 0.3826 * 2f64.sqrt() * most;
+    let held = twisted(1e-4, 0.0);
+    assert_relative(held.couple().z, -1e-4 * 1e8 / 3.0, 1e-12);
+    assert_eq!(held.friction, 0.0);
+    let slipped = twisted(1.0, 0.0);
+    assert_relative(slipped.couple().z, -twist, 1e-12);
+    assert_relative(slipped.friction, twist * (1.0 - twist / (1e8 / 3.0)), 1e-12);
+    // Both at once lie on the ellipse.
+    let both = twisted(1.0, 0.5);
+    let [f, t] = [both.total().x / most, both.couple().z / twist];
+    assert!(f < -0.1 && t < -0.1, "{f}, {t}");
+    assert_relative(f.hypot(t), 1.0, 1e-12);
 }

@@ -135,7 +135,7 @@ impl BondState {
     }
 
     /// Bending moment of the pressure u + θ₂ x₁ − θ₁ x₂ of an elastic bed (Winkler) on the second part about the point,
-    /// over its stiffness, m⁴: −(J₂ θ₁, J₁ θ₂), J the second moments. A bond has no torsional spring about its normal.
+    /// over its stiffness, m⁴: −(J₂ θ₁, J₁ θ₂), J the second moments.
     pub fn moment(&self, bond: &Bond) -> DVec3 {
         let [first, second] = bond.seconds;
         -(self.axes[0] * (second * self.tilts[0]) + self.axes[1] * (first * self.tilts[1]))

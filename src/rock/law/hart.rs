@@ -1,10 +1,14 @@
 //! Hart, Cundall & Lemos 1988 (Int. J. Rock Mech. Min. Sci. 25:117–125): springs over the contact
 //! area, Coulomb friction, dashpots.
 //!
-//! f_n = k_n A u_n, f_s ← f_s − k_s A Δu_s, |f_s| ≤ cA + f_n tan φ, c_n = 2ζ√(m* k_n A).
+//! f_n = k_n A u_n, f_s ← f_s − k_s A Δu_s, |f_s| ≤ F = cA + f_n tan φ, c_n = 2ζ√(m* k_n A).
 //!
-//! The springs act at the pressure centre, the point of action of the resultant pressure over the face. The
-//! dashpots are distributed over the face like the springs: 3DEC has them in every sub-contact. At a single point they
+//! The springs act at the pressure centre, the point of action of the resultant pressure over the face. Shear over the face also
+//! resists a twist about the normal: T ← T − k_s A²/6 Δθ, A²/6 the polar second moment of a square. Sliding and twist share the
+//! friction: (|f_s|/F)² + (T/T_max)² ≤ 1 (Howe & Cutkosky 1996, Int. J. Robot. Res. 15:557), where T_max = 0.3826 √A F is the moment
+//! of friction under uniform pressure over a square.
+//!
+//! The dashpots are distributed over the face like the springs: 3DEC has them in every sub-contact. At a single point they
 //! would not damp rocking, since the pressure centre of a rocking block moves with the angle:
 //! the damping would be of second order in it, and a stack would never come to rest. Their moment is
 //! that of a square face of the contact's area, A/12 for rocking and A/6 for twist. A sphere rolls on its contact
@@ -12,8 +16,7 @@
 //!
 //! A bond is a contact whose springs also carry tension: it keeps its initial area, and bends over it as an elastic
 //! bed. It breaks permanently if its tension reaches σ_t at a corner, or if it has slipped by σ_t/k_s, the distance by
-//! which it opens before it breaks. It has no spring against a twist about its normal, which only dashpots resist. A
-//! broken bond is a contact without tension.
+//! which it opens before it breaks. A broken bond is a contact without tension.
 //!
 //! The longest stable step follows from an upper bound of the highest frequency (Hart, Cundall & Lemos 1988).
 //!
@@ -31,6 +34,8 @@ pub struct History {
     pub shear: DVec3,
     /// Normal when `shear` was stored, in the first block's frame.
     pub normal: DVec3,
+    /// Moment T of the shear springs on the second block about the normal, N m.
+    pub torsion: f64,
     /// Whether the bond is intact.
     pub bonded: bool,
     /// Slip of a bond, m.
@@ -81,6 +86,8 @@ pub struct Force {
     pub dashpot: DVec3,
     /// Moment of the dashpots about the pressure centre, N m.
     pub moment: DVec3,
+    /// Moment of the shear springs about the normal, N m.
+    pub torsion: DVec3,
     /// Moment of the springs of a bond about the middle of its area, N m.
     pub bending: DVec3,
     /// Work dissipated by friction in this step, J.
@@ -97,7 +104,7 @@ impl Force {
 
     /// Moment of springs and dashpots, N m.
     pub fn couple(&self) -> DVec3 {
-        self.moment + self.bending
+        self.moment + self.torsion + self.bending
     }
 }
 
@@ -131,50 +138,85 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     // The friction limit uses the total normal force, which presses the faces together.
     let strength = joint.cohesion * area + pressed.max(0.0) * tan_phi;
     let tangential = motion.displacement - normal * motion.displacement.dot(normal);
-    let trial_shear = turned(history, normal, motion) - shear_stiffness * tangential;
-    let shear = capped(trial_shear, strength);
+    let twist = motion.spin.dot(normal);
+    let side = area.sqrt();
+    let torsional_stiffness = shear_stiffness * (area / 6.0);
+    let trial = Friction {
+        force: turned(history, normal, motion) - shear_stiffness * tangential,
+        torsion: history.torsion - torsional_stiffness * twist * motion.time_step,
+    };
+    let arm = MEAN_ARM * side;
+    let limit = [strength, arm * strength];
+    let held = trial.within(limit);
     // Slip is the part of the displacement that the spring does not take; the force is the mean over the slip.
-    let slip = (trial_shear - shear) / shear_stiffness;
-    let friction = slip.dot(shear);
-    let slip = history.slip + slip.length();
+    let slip = (trial.force - held.force) / shear_stiffness;
+    let turned_by = match torsional_stiffness {
+        0.0 => 0.0,
+        stiffness => (trial.torsion - held.torsion) / stiffness,
+    };
+    let friction = slip.dot(held.force) + turned_by * held.torsion;
+    let slip = history.slip + slip.length().hypot(arm * turned_by);
     bonded &= slip * joint.shear_stiffness <= joint.tensile_strength;
 
     let sliding = motion.velocity - normal * opening_rate;
-    let viscous = dashpot(joint.damping, motion.mass, shear_stiffness) * sliding;
-    let damped = capped(shear - viscous, strength);
+    let mass = motion.mass;
+    let viscosity = dashpot(joint.damping, mass, shear_stiffness);
+    let damped = Friction {
+        force: held.force - viscosity * sliding,
+        torsion: held.torsion - viscosity * (area / 6.0) * twist,
+    };
+    let damped = damped.within(limit);
 
-    let twist = motion.spin.dot(normal);
     let rocking = match rolls {
         true => DVec3::ZERO,
         false => motion.spin - normal * twist,
     };
-    let side = area.sqrt();
-    let mass = motion.mass;
     let rock = dashpot(joint.damping, mass, normal_stiffness) * (area / 12.0) * rocking;
-    let turn = dashpot(joint.damping, mass, shear_stiffness) * (area / 6.0) * twist;
-    // Pressure cannot pull: the resultant stays in the face, within half a side of its middle. Friction over a
-    // square has the mean arm 0.3826 a.
-    let most = 0.3826 * side * strength;
+    // Pressure cannot pull: the resultant stays in the face, within half a side of its middle.
     let grip = if bonded {
         pressed - least
     } else {
         pressed.max(0.0)
     };
-    let moment = -capped(rock, 0.5 * side * grip) - normal * turn.clamp(-most, most);
+    let moment = normal * (damped.torsion - held.torsion) - capped(rock, 0.5 * side * grip);
 
     let inward = motion.frame.conjugate();
     Force {
-        spring: normal * pressing + shear,
-        dashpot: normal * (pressed - pressing) + (damped - shear),
+        spring: normal * pressing + held.force,
+        dashpot: normal * (pressed - pressing) + (damped.force - held.force),
         moment,
+        torsion: normal * held.torsion,
         bending: DVec3::ZERO,
         friction,
         history: History {
-            shear: inward * shear,
+            shear: inward * held.force,
             normal: inward * normal,
+            torsion: held.torsion,
             bonded,
             slip: if bonded { slip } else { 0.0 },
         },
+    }
+}
+
+/// Mean distance of the points of a square from its middle, over its side: the arm of friction against a twist.
+const MEAN_ARM: f64 = 0.3826;
+
+/// Friction of a face: a force along it, N, and a moment about its normal, N m.
+struct Friction {
+    force: DVec3,
+    torsion: f64,
+}
+
+impl Friction {
+    /// The friction in the same proportion within the limits of a force alone and of a moment alone.
+    fn within(&self, [force, torsion]: [f64; 2]) -> Self {
+        let relative = |part: f64, most: f64| if part == 0.0 { 0.0 } else { part / most };
+        let share = relative(self.force.length(), force).hypot(relative(self.torsion, torsion));
+        let part = share.max(1.0).recip();
+        Self {
+            force: self.force * part,
+            torsion: self.torsion * part,
+        }
     }
 }
 

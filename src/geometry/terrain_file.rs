@@ -81,7 +81,13 @@ pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
                 "the point ({x}, {y}) is not on the grid of {dx} and {dy} that the others have; resample it"
             ));
         };
-        heights[i + nx * j] = *z;
+        let height = &mut heights[i + nx * j];
+        if height.is_finite() && *height != *z {
+            return Err(format!(
+                "the point ({x}, {y}) has two heights, {height} and {z}; remove one"
+            ));
+        }
+        *height = *z;
     }
     Ok(Terrain {
         origin: [x0, y0],
@@ -169,6 +175,10 @@ pub(super) fn read_tiff(bytes: Vec<u8>) -> Result<Terrain, String> {
         .unwrap_or_default();
     let is_point = keys.chunks(4).any(|key| matches!(key, [1025, 0, _, 2]));
     let shift = if is_point { 0.0 } else { 0.5 };
+    // GTModelType (1024): 2 for longitude and latitude.
+    if keys.chunks(4).any(|key| matches!(key, [1024, 0, _, 2])) {
+        return Err("its positions are degrees of longitude and latitude; project it to metres, as by gdalwarp -t_srs".into());
+    }
     let none = file.get_tag_ascii_string(Tag::GdalNodata).ok();
     let none = none.and_then(|word| word.trim_matches(['\0', ' ']).parse::<f64>().ok());
     let values: Vec<f64> = match file.read_image().map_err(wrong)? {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer, de::Error as _};
 
 use super::rules::{finite, finite_constants, refuse};
 use super::tagged::Kind;
-use super::{Face, Scene, sample::mean_normal_velocity};
+use super::{Face, Scene, sample::mean_normal_velocity, static_solids::Mask};
 use crate::error::Result;
 use crate::formula::Formula;
 
@@ -248,6 +248,69 @@ impl Scene {
             }
         }
         Ok(())
+    }
+
+    /// Checks that water that enters through velocity faces can reach a pressure face past the solids, or that as much leaves the part
+    /// of the domain that they close.
+    pub(super) fn check_openings(&self, mask: &Mask) -> Result<()> {
+        let of_kind = |is_kind: fn(&Boundary) -> bool| {
+            let faces = self.boundaries.iter().filter(move |(_, b)| is_kind(b));
+            faces.map(|(face, _)| face)
+        };
+        let outlets = of_kind(|b| matches!(b, Boundary::Pressure { .. }));
+        let inlets: Vec<_> = of_kind(|b| matches!(b, Boundary::Velocity { .. })).collect();
+        if inlets.is_empty() {
+            return Ok(());
+        }
+        let mut reached = mask.clone();
+        let mut open: Vec<[u32; 3]> = outlets.flat_map(|face| mask.face_cells(face)).collect();
+        if open.is_empty() {
+            return Ok(());
+        }
+        // Water passes edges and corners of cells too.
+        let cells = mask.cells();
+        while let Some(cell) = open.pop() {
+            if reached.is_solid(cell) {
+                continue;
+            }
+            reached.set(cell, true);
+            for n in 0..27 {
+                let c = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
+                let moved = [0, 1, 2].map(|a| i64::from(cell[a]) + c[a]);
+                let leaves = |a: usize| {
+                    let low = Face::ALL[2 * a];
+                    let ends = !(0..i64::from(cells[a])).contains(&moved[a]);
+                    ends && *self.boundaries.face(low) != Boundary::Periodic
+                };
+                if !(0..3).any(leaves) {
+                    open.push([0, 1, 2].map(|a| moved[a].rem_euclid(i64::from(cells[a])) as u32));
+                }
+            }
+        }
+        let [mut net, mut all] = [0.0; 2];
+        let mut closed = None;
+        for face in inlets {
+            let axis = face.axis().index();
+            let velocities = self.face_velocity(face, 0.0)?;
+            for (velocity, cell) in velocities.iter().zip(mask.face_cells(face)) {
+                if !reached.is_solid(cell) {
+                    net += velocity[axis] * face.outward();
+                    all += velocity[axis].abs();
+                    closed = closed.or(Some((face, cell)));
+                }
+            }
+        }
+        let Some((face, cell)) = closed.filter(|_| net.abs() > BALANCED * all) else {
+            return Ok(());
+        };
+        refuse(
+            format!("boundaries.{}", face.name()),
+            format!(
+                "solids close the water at {:?} m off from every pressure face, so that its mass would grow or shrink without end; open a \
+                 way, or close this part of the face with a solid",
+                self.centre(cell)
+            ),
+        )
     }
 
     /// Checks that inflow and outflow are equal if all openings of a scene are velocity faces.

@@ -87,6 +87,7 @@ impl Scene {
         let free = self.blocks.iter().any(|block| block.motion == Motion::Free);
         let reflects = self.numerics.solid_operator == SolidOperator::Holdych;
         if self.has_fluid()
+            && !self.has_particles()
             && reflects
             && !coupling.average
             && (free || !self.rock_masses.is_empty())

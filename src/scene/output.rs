@@ -211,7 +211,7 @@ pub enum Quantity {
     KineticEnergy,
     /// ∫ ½ω² dV, m³/s².
     Enstrophy,
-    /// ∫ ρ dV, kg.
+    /// ∫ ρ dV, kg, over the cells that are not entirely solid, each in full.
     Mass,
     /// ∫ ρu_x dV, kg m/s, over all cells, including those inside blocks, where it oscillates from step to step. To measure the
     /// flow past blocks, use a probe on a plane.

@@ -1,6 +1,6 @@
 //! Warnings about keys that are valid, but probably not as intended.
 
-use super::{Advice, Block, BlockShape, Motion, Scene, Warning};
+use super::{Advice, Block, BlockShape, Motion, ProbePlace, Scene, Shape, Solid, Warning};
 use crate::formula::Formula;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -81,6 +81,44 @@ impl Scene {
                 );
             }
         }
+        for one in &self.materials {
+            if one.tensile_strength > 0.0 && one.cohesion == 0.0 {
+                warn(
+                    format!("materials.{}.tensile_strength", one.name),
+                    "under tension its bonds have no strength in shear, which is the cohesion: a bonded block slides off; give cohesion \
+                     too"
+                        .into(),
+                );
+            }
+        }
+        for (number, solid) in self.solids.iter().enumerate() {
+            if self.is_lost_between_cells(solid) {
+                warn(
+                    format!("solids[{number}]"),
+                    "fills no cell of the fluid, because it holds the centre of none: only blocks meet it; use surface = \"exact\", or a \
+                     smaller domain.cell"
+                        .into(),
+                );
+            }
+        }
+        // Formulas in time, which shake a tank, are not judged.
+        let gravity = self.fluid.acceleration.each_ref().map(Formula::constant);
+        if let ([Some(x), Some(y), Some(z)], true) = (gravity, self.has_particles()) {
+            let is_level = z < 0.0 && -z >= x.hypot(y);
+            let gauges = self
+                .probes
+                .iter()
+                .filter(|probe| matches!(probe.place, ProbePlace::Gauge { .. }));
+            for probe in gauges.filter(|_| !is_level) {
+                warn(
+                    format!("probes.{}", probe.name),
+                    format!(
+                        "it measures the level along z, and the water weighs along {:?} m/s²; use a line along this direction",
+                        [x, y, z]
+                    ),
+                );
+            }
+        }
         for probe in &self.probes {
             let short = |every: &f64| *every < time_step * (1.0 - ROUNDED);
             if let Some(every) = probe.every.filter(short) {
@@ -111,6 +149,26 @@ impl Scene {
             }
         }
         advice
+    }
+
+    /// Whether a box in the domain of a lattice contains the centre of no cell, and fills none in part.
+    fn is_lost_between_cells(&self, solid: &Solid) -> bool {
+        let Shape::Box { min, max } = &solid.shape else {
+            return false;
+        };
+        if !self.has_fluid() || self.has_particles() || solid.is_exact() || solid.void {
+            return false;
+        }
+        let cells = self.cells();
+        let [low, high] = [self.centre([0; 3]), self.centre(cells.map(|n| n - 1))];
+        let half = 0.5 * self.domain.cell;
+        let each = |a: usize| [min[a].max(low[a] - half), max[a].min(high[a] + half)];
+        let is_inside = |[from, to]: [f64; 2]| to - from > ROUNDED * self.domain.cell;
+        let misses = |a: usize| {
+            let [from, to] = each(a).map(|at| (at - low[a]) / self.domain.cell);
+            (from - ROUNDED).ceil() > (to + ROUNDED).floor()
+        };
+        (0..3).all(|a| is_inside(each(a))) && (0..3).any(misses)
     }
 
     /// Overlap of a free box or sphere at rest with a plane of its own material, as a fraction of half its smallest edge or of

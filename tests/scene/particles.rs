@@ -185,3 +185,14 @@ fn the_schema_says_what_dry_probes_write() {
         assert!(told.contains("NaN"), "{name}: {told}");
     }
 }
+
+#[test]
+fn a_gauge_across_gravity_has_a_warning() {
+    let gauge = "[[probes]]\nname = \"level\"\nkind = \"gauge\"\nat = [0.5, 0.5]\n";
+    let upright = format!("{TANK}{gauge}");
+    let tilted = upright.replace("[0, 0, -9.81]", "[-9.81, 0, -5]");
+    assert!(read(&upright).unwrap().suspicious_keys(1e-3).is_empty());
+    let found = read(&tilted).unwrap().suspicious_keys(1e-3);
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0].place, "probes.level");
+}

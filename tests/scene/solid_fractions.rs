@@ -146,21 +146,30 @@ fn surveys(dir: &Path) -> [&'static str; 4] {
     }
     fs::write(dir.join("bed.asc"), grid).unwrap();
     fs::write(dir.join("corners.asc"), corners).unwrap();
-    let file = fs::File::create(dir.join("bed.tif")).unwrap();
+    let values: Vec<f32> = (0..6).rev().flat_map(row).map(|h| *h as f32).collect();
+    // GTModelType: metres, and degrees.
+    write_tiff(&dir.join("bed.tif"), &values, 1);
+    write_tiff(&dir.join("degrees.tif"), &values, 2);
+    ["bed.xyz", "bed.asc", "corners.asc", "bed.tif"]
+}
+
+fn write_tiff(path: &Path, values: &[f32], model: u16) {
+    let file = fs::File::create(path).unwrap();
     let mut tiff = tiff::encoder::TiffEncoder::new(file).unwrap();
     let mut image = tiff
         .new_image::<tiff::encoder::colortype::Gray32Float>(7, 6)
         .unwrap();
     let tags = image.encoder();
+    let keys = [1u16, 1, 0, 1, 1024, 0, 1, model];
+    tags.write_tag(tiff::tags::Tag::GeoKeyDirectoryTag, &keys[..])
+        .unwrap();
     let tag = tiff::tags::Tag::ModelPixelScaleTag;
     tags.write_tag(tag, &[0.2f64, 0.2, 0.0][..]).unwrap();
     // The corner of the first pixel, in the north-west.
     let tie = [0.0f64, 0.0, 0.0, 999.9, 2001.1, 0.0];
     tags.write_tag(tiff::tags::Tag::ModelTiepointTag, &tie[..])
         .unwrap();
-    let values: Vec<f32> = (0..6).rev().flat_map(row).map(|h| *h as f32).collect();
-    image.write_data(&values).unwrap();
-    ["bed.xyz", "bed.asc", "corners.asc", "bed.tif"]
+    image.write_data(values).unwrap();
 }
 
 #[test]
@@ -216,6 +225,9 @@ fn terrain_that_is_none_is_refused() {
     refused(of("scattered.xyz", ""), &["scattered.xyz", "resample"]);
     write("sparse.xyz", "0 0 1\n0.01 0.01 1\n1 1 1\n2 2 1\n");
     refused(of("sparse.xyz", ""), &["sparse.xyz", "regular grid"]);
+    refused(of("degrees.tif", ""), &["degrees.tif", "metres"]);
+    write("two.xyz", "0 0 1\n1 0 1\n0 1 1\n1 1 1\n0 0 2\n");
+    refused(of("two.xyz", ""), &["two.xyz", "two heights"]);
     write("line.xyz", "0 0 1\n1 0 1\n");
     refused(of("line.xyz", ""), &["line.xyz", "the same y"]);
     write(

@@ -444,3 +444,23 @@ fn roughness_of_walls_and_solids_has_a_bound() {
         );
     }
 }
+
+#[test]
+fn a_channel_that_solids_close_is_refused() {
+    let with_gate = |top: f64| {
+        let scene = channel(&format!(
+            r#"
+            [boundaries]
+            x_min = {{ kind = "velocity", velocity = [0.1, 0, 0] }}
+            x_max = {{ kind = "pressure" }}
+            [[solids]]
+            kind = "box"
+            min = [0.008, 0, 0]
+            max = [0.01, 0.01, {top}]
+            "#
+        ))?;
+        lattice_setup(&scene, &Units::of(&scene)?, None)
+    };
+    assert!(with_gate(0.003).is_ok());
+    refused(with_gate(0.004), &["boundaries.x_min", "close"]);
+}

@@ -164,6 +164,7 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
         });
         let growth = sphere_growth(weight, setup.tau());
         let SolidFractions { mask, partial } = scene.solid_fractions_grown(growth)?;
+        scene.check_openings(&mask)?;
         let cells = partial.into_iter();
         setup.surface = cells
             .map(|(cell, fraction)| SurfaceCell { cell, fraction })

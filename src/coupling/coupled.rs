@@ -353,7 +353,7 @@ const DELAY_MEMORY: f64 = 16.0;
 /// half.
 fn load_delay(scene: &Scene, units: &Units) -> LoadDelay {
     let interval = f64::from(scene.coupling.interval);
-    let steps = 0.5 * interval + if scene.coupling.average { 1.0 } else { 0.5 };
+    let steps = 0.5 * interval + if scene.averages_loads() { 1.0 } else { 0.5 };
     LoadDelay {
         // ρ c² t/Δx with c² = (Δx/Δt)²/3.
         impedance: scene.fluid.density * units.cell / units.time_step * steps / 3.0,

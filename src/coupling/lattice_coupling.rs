@@ -71,7 +71,7 @@ impl LatticeCoupling {
                 period,
             },
             load_average: LoadAverage::default(),
-            average: scene.coupling.average,
+            average: scene.averages_loads(),
             placed: None,
             gaps: Vec::new(),
             face_probes: Vec::new(),

@@ -18,8 +18,9 @@ pub struct Coupling {
     /// Whether blocks move under the mean of the loads of two successive time steps (Owen, Leonardi & Feng 2011).
     /// Cells inside a block reflect their populations in every step, so that single loads oscillate with
     /// a period of two steps, which the mean removes. Without it free blocks need a solid operator
-    /// other than `holdych`. Default true.
-    pub average: bool,
+    /// other than `holdych`. Default true on the lattice. Default false for particles, where the delay of the mean makes free blocks
+    /// that float oscillate.
+    pub average: Option<bool>,
     /// Time for which all blocks, driven ones too, are held in their initial positions, s, while the flow develops and
     /// their loads are recorded. Default 0.
     pub hold: f64,
@@ -38,7 +39,7 @@ impl Default for Coupling {
     fn default() -> Self {
         Self {
             interval: 1,
-            average: true,
+            average: None,
             hold: 0.0,
             lubrication: true,
             joint_aperture: None,
@@ -47,6 +48,11 @@ impl Default for Coupling {
 }
 
 impl Scene {
+    /// Whether blocks move under the mean of two successive loads.
+    pub fn averages_loads(&self) -> bool {
+        self.coupling.average.unwrap_or(!self.has_particles())
+    }
+
     pub(super) fn check_coupling(&self) -> Result<()> {
         let coupling = &self.coupling;
         if coupling.interval == 0 {
@@ -89,7 +95,7 @@ impl Scene {
         if self.has_fluid()
             && !self.has_particles()
             && reflects
-            && !coupling.average
+            && !self.averages_loads()
             && (free || !self.rock_masses.is_empty())
         {
             return refuse(

@@ -153,7 +153,7 @@ impl SphFluid {
             sensors: Sensors::of(scene, setup),
             particles,
             time: 0.0,
-            average: scene.coupling.average,
+            average: scene.averages_loads(),
             last: Vec::new(),
             joints: 0.0,
             sorts: 0,
@@ -309,7 +309,7 @@ fn joints_work(own: &[Load], all: &[Load], poses: &[Pose], time: f64) -> f64 {
 /// Mech. Eng. 317:771), J. Work counts from the start.
 ///
 /// The work of `bodies` on the water is minus the work of the load on them along their motion in the steps of the water.
-/// Blocks move after the water and under the mean of two loads, so the work of `blocks` differs; it includes joints.
+/// Blocks move after the water, so the work of `blocks` differs; it includes joints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WaterLedger {
     /// Σ ½mv².

@@ -29,7 +29,7 @@ fn cube(cells: [u32; 3], tau: f64, velocity: [f64; 3], turned: bool) -> anyhow::
     }
     scene.blocks.push(cube);
     // Forces of single steps, not averaged.
-    scene.coupling.average = false;
+    scene.coupling.average = Some(false);
     Ok(scene)
 }
 
@@ -111,7 +111,7 @@ pub fn swing(context: &CaseContext) -> Outcome {
             cube.velocity = [speed.parse()?, Formula::number(0.0), Formula::number(0.0)];
             scene.blocks.push(cube);
             // Forces of single steps: the load on a block is the mean of two.
-            scene.coupling.average = false;
+            scene.coupling.average = Some(false);
             method.choose(&mut scene);
             let mut tank = Tank::fill(context, &scene)?;
             tank.advance(ramp as u64 + BEFORE * CROSSING as u64)?;

@@ -257,50 +257,34 @@ impl Scene {
             let faces = self.boundaries.iter().filter(move |(_, b)| is_kind(b));
             faces.map(|(face, _)| face)
         };
-        let outlets = of_kind(|b| matches!(b, Boundary::Pressure { .. }));
         let inlets: Vec<_> = of_kind(|b| matches!(b, Boundary::Velocity { .. })).collect();
-        if inlets.is_empty() {
+        let outlets = of_kind(|b| matches!(b, Boundary::Pressure { .. }));
+        let outlets: Vec<[u32; 3]> = outlets.flat_map(|face| mask.face_cells(face)).collect();
+        if inlets.is_empty() || outlets.is_empty() {
             return Ok(());
         }
-        let mut reached = mask.clone();
-        let mut open: Vec<[u32; 3]> = outlets.flat_map(|face| mask.face_cells(face)).collect();
-        if open.is_empty() {
-            return Ok(());
-        }
-        // Water passes edges and corners of cells too.
-        let cells = mask.cells();
-        while let Some(cell) = open.pop() {
-            if reached.is_solid(cell) {
-                continue;
-            }
-            reached.set(cell, true);
-            for n in 0..27 {
-                let c = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
-                let moved = [0, 1, 2].map(|a| i64::from(cell[a]) + c[a]);
-                let leaves = |a: usize| {
-                    let low = Face::ALL[2 * a];
-                    let ends = !(0..i64::from(cells[a])).contains(&moved[a]);
-                    ends && *self.boundaries.face(low) != Boundary::Periodic
-                };
-                if !(0..3).any(leaves) {
-                    open.push([0, 1, 2].map(|a| moved[a].rem_euclid(i64::from(cells[a])) as u32));
-                }
-            }
-        }
-        let [mut net, mut all] = [0.0; 2];
         let mut closed = None;
-        for face in inlets {
-            let axis = face.axis().index();
-            let velocities = self.face_velocity(face, 0.0)?;
-            for (velocity, cell) in velocities.iter().zip(mask.face_cells(face)) {
-                if !reached.is_solid(cell) {
-                    net += velocity[axis] * face.outward();
-                    all += velocity[axis].abs();
-                    closed = closed.or(Some((face, cell)));
+        // Water also passes edges and corners of cells, which takes longer to follow.
+        for diagonals in [false, true] {
+            let reached = self.reached(mask, &outlets, diagonals);
+            let [mut net, mut all] = [0.0; 2];
+            closed = None;
+            for &face in &inlets {
+                let axis = face.axis().index();
+                let velocities = self.face_velocity(face, 0.0)?;
+                for (velocity, cell) in velocities.iter().zip(mask.face_cells(face)) {
+                    if !reached.is_solid(cell) {
+                        net += velocity[axis] * face.outward();
+                        all += velocity[axis].abs();
+                        closed = closed.or(Some((face, cell)));
+                    }
                 }
             }
+            if net.abs() <= BALANCED * all {
+                return Ok(());
+            }
         }
-        let Some((face, cell)) = closed.filter(|_| net.abs() > BALANCED * all) else {
+        let Some((face, cell)) = closed else {
             return Ok(());
         };
         refuse(
@@ -311,6 +295,39 @@ impl Scene {
                 self.centre(cell)
             ),
         )
+    }
+
+    /// The solids with all cells of fluid that are connected to those of `from`, through faces or also through edges and corners.
+    fn reached(&self, mask: &Mask, from: &[[u32; 3]], diagonals: bool) -> Mask {
+        let steps = (0..27).map(|n| [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1]);
+        let is_step = |c: &[i64; 3]| match c.iter().map(|c| c.abs()).sum() {
+            0 => false,
+            order => diagonals || order == 1,
+        };
+        let steps: Vec<[i64; 3]> = steps.filter(is_step).collect();
+        let cells = mask.cells().map(i64::from);
+        let periodic =
+            [0, 1, 2].map(|a| *self.boundaries.face(Face::ALL[2 * a]) == Boundary::Periodic);
+        let mut reached = mask.clone();
+        let mut open = Vec::new();
+        let mut next = from.to_vec();
+        loop {
+            for cell in next.drain(..) {
+                if !reached.is_solid(cell) {
+                    reached.set(cell, true);
+                    open.push(cell);
+                }
+            }
+            let Some(cell) = open.pop() else {
+                return reached;
+            };
+            for c in &steps {
+                let to = [0, 1, 2].map(|a| i64::from(cell[a]) + c[a]);
+                if (0..3).all(|a| periodic[a] || (0..cells[a]).contains(&to[a])) {
+                    next.push([0, 1, 2].map(|a| to[a].rem_euclid(cells[a]) as u32));
+                }
+            }
+        }
     }
 
     /// Checks that inflow and outflow are equal if all openings of a scene are velocity faces.

@@ -49,6 +49,11 @@ pub(super) fn opposite(q: usize) -> usize {
     if q == 0 { 0 } else { ((q - 1) ^ 1) + 1 }
 }
 
+/// The number of a direction.
+pub(super) fn direction(c: [i32; 3]) -> usize {
+    C.iter().position(|other| *other == c).unwrap_or_default()
+}
+
 /// Target of a direction from a fluid cell.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Beyond {
@@ -490,12 +495,10 @@ impl Survey<'_> {
         // The entering direction with its normal components reversed towards the face again.
         let sent = [0, 1, 2].map(|a| if axes[a] { C[q][a] } else { C[entering][a] });
         let tangential = [0, 1, 2].map(|a| if axes[a] { 0 } else { C[q][a] });
-        let along = tangential.iter().position(|&t| t != 0).map_or(0, |_| {
-            C.iter().position(|c| *c == tangential).unwrap_or_default()
-        });
-        let direction = C.iter().position(|c| *c == sent).unwrap_or_default();
+        let along = direction(tangential);
+        let sent = direction(sent);
         if along == 0 {
-            return self.link(cell, direction, cell, entering);
+            return self.link(cell, sent, cell, entering);
         }
         if self.beyond(cell, along) != Beyond::Fluid {
             return self.link(cell, q, cell, entering);
@@ -504,6 +507,6 @@ impl Survey<'_> {
             let n = i64::from(self.grid.cells[a]);
             (i64::from(cell[a]) + i64::from(tangential[a])).rem_euclid(n) as u32
         });
-        self.link(sender, direction, cell, entering)
+        self.link(sender, sent, cell, entering)
     }
 }

@@ -202,7 +202,9 @@ pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -
         )
         .slot(
             "mirror",
-            match setup.has_surface_friction() && setup.has_free_slip() {
+            match setup.has_surface_friction()
+                && setup.faces.as_flattened().contains(&Face::FreeSlip)
+            {
                 true => "mirror_free_slip",
                 false => "mirror_none",
             },

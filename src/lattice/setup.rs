@@ -319,11 +319,6 @@ impl Setup {
         self.wall_model.is_some() && !self.surface.is_empty() && self.storage == Storage::F32
     }
 
-    /// Whether a face of the domain is a free-slip one.
-    pub(super) fn has_free_slip(&self) -> bool {
-        self.faces.as_flattened().contains(&Face::FreeSlip)
-    }
-
     /// Planes of the cells that solids at rest fill in part: the fraction; and for the wall model its share and the normal.
     pub(super) fn surface_planes(&self) -> u32 {
         if self.has_surface_friction() { 5 } else { 1 }

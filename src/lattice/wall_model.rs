@@ -6,7 +6,7 @@ use super::{
     buffers::storage,
     cell_kernels::CellDispatch,
     fluid::{Dispatch, in_plane},
-    geometry::{Beyond, C, Survey, opposite},
+    geometry::{Beyond, C, Survey, direction, opposite},
 };
 use crate::{
     Result,
@@ -92,10 +92,6 @@ fn through(face: usize) -> [i32; 3] {
     let mut c = [0; 3];
     c[face / 2] = [-1, 1][face % 2];
     c
-}
-
-fn direction(c: [i32; 3]) -> usize {
-    C.iter().position(|other| *other == c).unwrap_or_default()
 }
 
 impl Walls {

@@ -49,6 +49,11 @@ impl Wall {
         })
     }
 
+    /// The cell whose velocity the law reads.
+    fn sample(&self, domain: &Domain) -> usize {
+        self.layer(domain, 4).expect("five cells are fluid")
+    }
+
     /// Tangential part of a vector.
     fn along(&self, mut u: [f64; 3]) -> [f64; 3] {
         u[self.axis] = 0.0;
@@ -182,8 +187,7 @@ impl WallModel {
         nu: f64,
         u: &[[f64; 3]],
     ) -> ([f64; 3], f64, f64) {
-        let sample = wall.layer(domain, 4).expect("five cells are fluid");
-        let along = wall.along(u[sample]);
+        let along = wall.along(u[wall.sample(domain)]);
         let stress = self.stress(wall, domain, norm(along), 4.5, nu);
         (along, stress, share(stress.sqrt(), nu))
     }
@@ -232,7 +236,7 @@ impl WallModel {
         u: &[[f64; 3]],
     ) -> (usize, [f64; 2], [f64; 2], f64, f64) {
         let axis = 3 - walls[0].axis - walls[1].axis;
-        let read = |wall: &Wall| u[wall.layer(domain, 4).expect("five cells are fluid")][axis];
+        let read = |wall: &Wall| u[wall.sample(domain)][axis];
         let speeds = [read(&walls[0]), read(&walls[1])];
         let stress = [0, 1].map(|n| self.stress(&walls[n], domain, speeds[n].abs(), 4.5, nu));
         let part = share(stress[0].min(stress[1]).sqrt(), nu);

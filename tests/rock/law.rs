@@ -20,6 +20,8 @@ const SECTION: Section = Section {
     overlap: 1e-3,
     area: 2.0,
     elastic_area: 2.0,
+    // A square: A/6.
+    gyration: 0.577_350_269_189_625_8,
     rolls: false,
     opening: 0.0,
 };
@@ -209,7 +211,7 @@ fn a_bond_breaks_where_it_bends_the_most_or_has_slipped_as_far_as_it_opens() {
 
 #[test]
 fn shear_over_the_face_resists_a_twist_about_the_normal_up_to_its_friction() {
-    let twisted = |angle: f64, displacement: f64| {
+    let on = |section: Section, angle: f64, displacement: f64| {
         let motion = Motion {
             displacement: DVec3::X * displacement,
             spin: DVec3::Z * (angle / REST.time_step),
@@ -219,11 +221,12 @@ fn shear_over_the_face_resists_a_twist_about_the_normal_up_to_its_friction() {
             damping: 0.0,
             ..JOINT
         };
-        force(&joint, &SECTION, &motion, &History::default())
+        force(&joint, &section, &motion, &History::default())
     };
-    // k_s A²/6 = 33.3 MN m; F = 200 kN tan 30°, T_max = 0.3826 √2 F.
+    let twisted = |angle: f64, displacement: f64| on(SECTION, angle, displacement);
+    // k_s A²/6 = 33.3 MN m; F = 200 kN tan 30°, T_max = (√2 + ln(1 + √2))/6 √2 F.
     let most = 2e5 * (PI / 6.0).tan();
-    let twist = 0.3826 * 2f64.sqrt() * most;
+    let twist = (2f64.sqrt() + (1.0 + 2f64.sqrt()).ln()) / 6.0 * 2f64.sqrt() * most;
     let held = twisted(1e-4, 0.0);
     assert_relative(held.couple().z, -1e-4 * 1e8 / 3.0, 1e-12);
     assert_eq!(held.friction, 0.0);
@@ -235,4 +238,20 @@ fn shear_over_the_face_resists_a_twist_about_the_normal_up_to_its_friction() {
     let [f, t] = [both.total().x / most, both.couple().z / twist];
     assert!(f < -0.1 && t < -0.1, "{f}, {t}");
     assert_relative(f.hypot(t), 1.0, 1e-12);
+    // An edge of 3 m has an arm of a quarter of its length; a circle nearly 2/3 of its radius; a face of 2 m by 1 m the mean
+    // distance of its points from the middle, by the midpoint rule.
+    let arm = |area: f64, polar: f64| {
+        let section = Section {
+            area,
+            gyration: polar.sqrt(),
+            ..SECTION
+        };
+        -on(section, 1.0, 0.0).couple().z / most
+    };
+    assert_relative(arm(1e-9, 9.0 / 12.0), 0.75, 1e-6);
+    assert_relative(arm(PI, 0.5), 2.0 / 3.0, 1e-2);
+    let middles = (0..1000).map(|i| (f64::from(i) + 0.5) / 1000.0);
+    let row = |x: f64| middles.clone().map(move |y| x.hypot(0.5 * y)).sum::<f64>();
+    let mean = middles.clone().map(row).sum::<f64>() / 1e6;
+    assert_relative(arm(2.0, 5.0 / 12.0), mean, 1e-5);
 }

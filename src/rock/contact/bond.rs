@@ -115,6 +115,12 @@ impl Bond {
         }
     }
 
+    /// Radius of gyration of the patch about its centroid, m.
+    pub fn gyration(&self) -> f64 {
+        let [along, across] = self.seconds;
+        ((along + across) / self.area).sqrt()
+    }
+
     /// Largest extent of the patch, m.
     pub fn width(&self) -> f64 {
         let [along, across] = self

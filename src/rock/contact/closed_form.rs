@@ -161,6 +161,7 @@ fn round(point: DVec3, normal: DVec3, overlap: f64, square: f64) -> ContactGeome
         area: PI * square,
         pressure_centre: point,
         width: 2.0 * square.sqrt(),
+        gyration: (0.5 * square).sqrt(),
         limit: 0.0,
     }
 }

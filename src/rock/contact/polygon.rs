@@ -139,6 +139,14 @@ impl Polygon {
         })
     }
 
+    /// Radius of gyration about the centroid.
+    pub fn gyration(&self) -> f64 {
+        let seconds = self.second_moments();
+        seconds.map_or(0.0, |of| {
+            (of.principal.iter().sum::<f64>() / of.area).sqrt()
+        })
+    }
+
     /// Largest distance between two corners.
     pub fn width(&self) -> f64 {
         let mut square: f64 = 0.0;

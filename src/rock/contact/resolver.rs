@@ -171,6 +171,7 @@ impl Resolver {
             area: section.area * length * length,
             pressure_centre: place(point + section.pressure_centre),
             width: section.width * length,
+            gyration: section.gyration * length,
             limit: 0.0,
         }
     }
@@ -376,6 +377,8 @@ pub struct ContactGeometry {
     pub pressure_centre: DVec3,
     /// Largest extent of the section, m.
     pub width: f64,
+    /// Radius of gyration of the section about its centroid, m.
+    pub gyration: f64,
     /// Overlap beyond which the blocks no longer count as hard, a tenth of the smallest distance of a
     /// face from the centroid of its block, m.
     pub limit: f64,

@@ -15,6 +15,8 @@ pub(super) struct Section {
     pub area: f64,
     pub pressure_centre: DVec3,
     pub width: f64,
+    /// Radius of gyration about the centroid.
+    pub gyration: f64,
 }
 
 /// Cosines of 10° and 5°: two faces at an angle of more than 10° touch with an edge, and of less than 5° they lie flat
@@ -69,6 +71,7 @@ impl Overlap<'_> {
             area: mix(cut.area, flat.area),
             pressure_centre: cut.pressure_centre.lerp(flat.pressure_centre, flatness),
             width: mix(cut.width, flat.width),
+            gyration: mix(cut.gyration, flat.gyration),
         }
     }
 
@@ -105,6 +108,7 @@ impl Overlap<'_> {
             area: sums.area,
             pressure_centre: plane.lift(ratio(sums.first, sums.volume)),
             width: section.width(),
+            gyration: section.gyration(),
         }
     }
 
@@ -135,6 +139,7 @@ impl Overlap<'_> {
                 area: moments.area,
                 pressure_centre: plane.lift(ratio(moments.first, moments.volume)),
                 width: polygon.width(),
+                gyration: polygon.gyration(),
             };
             (section, least / most)
         })

@@ -4,14 +4,15 @@
 //! f_n = k_n A u_n, f_s ← f_s − k_s A Δu_s, |f_s| ≤ F = cA + f_n tan φ, c_n = 2ζ√(m* k_n A).
 //!
 //! The springs act at the pressure centre, the point of action of the resultant pressure over the face. Shear over the face also
-//! resists a twist about the normal: T ← T − k_s A²/6 Δθ, A²/6 the polar second moment of a square. Sliding and twist share the
-//! friction: (|f_s|/F)² + (T/T_max)² ≤ 1 (Howe & Cutkosky 1996, Int. J. Robot. Res. 15:557), where T_max = 0.3826 √A F is the moment
-//! of friction under uniform pressure over a square.
+//! resists a twist about the normal: T ← T − k_s A ρ² Δθ, ρ the radius of gyration of the section about its centroid. Sliding and
+//! twist share the friction: (|f_s|/F)² + (T/T_max)² ≤ 1 (Howe & Cutkosky 1996, Int. J. Robot. Res. 15:557), where T_max = d F is
+//! the moment of friction under uniform pressure, and d the mean distance of the points of the section from its middle: that of
+//! the rectangle with the same area and the same ρ, a quarter of the length of an edge on which a block stands.
 //!
 //! The dashpots are distributed over the face like the springs: 3DEC has them in every sub-contact. At a single point they
 //! would not damp rocking, since the pressure centre of a rocking block moves with the angle:
 //! the damping would be of second order in it, and a stack would never come to rest. Their moment is
-//! that of a square face of the contact's area, A/12 for rocking and A/6 for twist. A sphere rolls on its contact
+//! that of a square face of the contact's area for rocking, A/12, and ρ² for twist. A sphere rolls on its contact
 //! instead of rocking: the contact moves with it, the springs dissipate nothing, and no dashpot resists the rolling.
 //!
 //! A bond is a contact whose springs also carry tension: it keeps its initial area, and bends over it as an elastic
@@ -53,6 +54,8 @@ pub struct Section {
     pub area: f64,
     /// Area of springs and dashpots, m²: A, or more if A is the area of a corner.
     pub elastic_area: f64,
+    /// Radius of gyration ρ of the section about its centroid, m.
+    pub gyration: f64,
     /// Whether one of the two parts is a sphere, which rolls.
     pub rolls: bool,
     /// Opening of a bond at its widest corner less the opening at its middle, m: 0 without bending.
@@ -115,6 +118,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
         overlap,
         area,
         elastic_area,
+        gyration,
         rolls,
         opening,
     } = *section;
@@ -139,13 +143,13 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let strength = joint.cohesion * area + pressed.max(0.0) * tan_phi;
     let tangential = motion.displacement - normal * motion.displacement.dot(normal);
     let twist = motion.spin.dot(normal);
-    let side = area.sqrt();
-    let torsional_stiffness = shear_stiffness * (area / 6.0);
+    let polar = gyration * gyration;
+    let torsional_stiffness = shear_stiffness * polar;
     let trial = Friction {
         force: turned(history, normal, motion) - shear_stiffness * tangential,
         torsion: history.torsion - torsional_stiffness * twist * motion.time_step,
     };
-    let arm = MEAN_ARM * side;
+    let arm = mean_arm(area, gyration);
     let limit = [strength, arm * strength];
     let held = trial.within(limit);
     // Slip is the part of the displacement that the spring does not take; the force is the mean over the slip.
@@ -163,7 +167,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let viscosity = dashpot(joint.damping, mass, shear_stiffness);
     let damped = Friction {
         force: held.force - viscosity * sliding,
-        torsion: held.torsion - viscosity * (area / 6.0) * twist,
+        torsion: held.torsion - viscosity * polar * twist,
     };
     let damped = damped.within(limit);
 
@@ -178,7 +182,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     } else {
         pressed.max(0.0)
     };
-    let moment = normal * (damped.torsion - held.torsion) - capped(rock, 0.5 * side * grip);
+    let moment = normal * (damped.torsion - held.torsion) - capped(rock, 0.5 * area.sqrt() * grip);
 
     let inward = motion.frame.conjugate();
     Force {
@@ -198,8 +202,22 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     }
 }
 
-/// Mean distance of the points of a square from its middle, over its side: the arm of friction against a twist.
-const MEAN_ARM: f64 = 0.3826;
+/// Mean distance, m, of the points of a rectangle from its middle: the arm of friction against a twist. `area`, m², and
+/// `gyration`, m, determine its sides; a rounder section than a square has the ratio of the square.
+fn mean_arm(area: f64, gyration: f64) -> f64 {
+    // (a + b)² and (a − b)² of the sides a and b: a b = A, a² + b² = 12 ρ².
+    let squares = 12.0 * gyration * gyration;
+    let [sum, difference] = [2.0, -2.0].map(|n| (squares + n * area).max(0.0).sqrt());
+    let long = 0.25 * (sum + difference);
+    let short = (0.25 * area / long).min(long);
+    if short <= 1e-6 * long {
+        return 0.5 * long;
+    }
+    let diagonal = long.hypot(short);
+    let of_side = |a: f64, b: f64| a * a / b * (b / a).asinh();
+    let mean = diagonal / 3.0 + (of_side(long, short) + of_side(short, long)) / 6.0;
+    mean * gyration * 3f64.sqrt() / diagonal
+}
 
 /// Friction of a face: a force along it, N, and a moment about its normal, N m.
 struct Friction {

@@ -270,6 +270,7 @@ fn sections(pile: &Pile) -> Vec<(Section, Motion, History)> {
             overlap: contact.overlap,
             area: contact.area,
             elastic_area: contact.area,
+            gyration: (contact.area / 6.0).sqrt(),
             rolls: false,
             opening: 0.0,
         };

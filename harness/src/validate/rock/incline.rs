@@ -1,11 +1,12 @@
-//! Blocks on inclined planes: one that slides, one that topples, and a wedge on two planes.
+//! Blocks at the limit of friction or balance: on an incline, under a couple, and a wedge on two planes.
 
-use super::{DENSITY, G, Rock, cuboid, joint, setup, slope};
+use super::{DENSITY, G, Rock, cuboid, floor, joint, setup, slope};
 use crate::validate::{CaseContext, Outcome, Trial};
 use glam::DVec3;
 use riprap::{
+    formula::Formula,
     geometry::{HalfSpace, Polyhedron},
-    rock::{Block, PairMaterial, Setup},
+    rock::{Block, PairMaterial, PointLoad, Setup},
 };
 use std::sync::Arc;
 
@@ -74,6 +75,58 @@ pub fn toppling(_: &CaseContext) -> Outcome {
         });
     }
     Ok(records)
+}
+
+/// A slab and a plank on a floor under a couple about the vertical, 3 % below and above its limit under uniform pressure,
+/// W tan φ times the mean distance of the points of the face from its middle.
+pub fn twist(_: &CaseContext) -> Outcome {
+    let mut records = Vec::new();
+    for (length, breadth) in [(1.0, 1.0), (2.0, 0.2)] {
+        let weight = DENSITY * length * breadth * HEIGHT * G;
+        let limit = weight * ALPHA.to_radians().tan() * mean_distance(length, breadth);
+        for share in [0.97, 1.03] {
+            let turning = |end: f64| {
+                // The force at each end grows for half a second; the pair needs no time to come to rest.
+                let force = end * share * limit / length;
+                let formula = |text: &str| text.parse::<Formula>();
+                let force = [
+                    formula("0")?,
+                    formula(&format!("{force} * min(1, 2*t)"))?,
+                    formula("0")?,
+                ];
+                let point = DVec3::new(0.5 * end * length, 0.0, -0.5 * HEIGHT);
+                anyhow::Ok(PointLoad { point, force })
+            };
+            let mut block = Block::new(
+                "block",
+                cuboid(length, breadth, HEIGHT)?,
+                DVec3::Z * 0.5 * HEIGHT,
+            );
+            block.point_loads = vec![turning(1.0)?, turning(-1.0)?];
+            let setup = setup(vec![floor(5.0)?, block], joint(1e9, ALPHA));
+            let what = format!("{length} x {breadth} m, {share} of the limit {limit:.1} N m");
+            let mut rock = Rock::new(setup, what)?;
+            rock.run(1.5)?;
+            let angle = rock.blocks.rotation(1).to_axis_angle().1;
+            let trial = rock.trial();
+            // The excess alone turns it by ½ M/I t² in the last second.
+            let inertia = weight / G * (length * length + breadth * breadth) / 12.0;
+            let free = 0.5 * (share - 1.0) * limit / inertia;
+            records.push(if share < 1.0 {
+                trial.at_most("angle after 1.5 s, holds, rad", angle, 1e-3)
+            } else {
+                trial.at_least("angle after 1.5 s, turns, rad", angle, 0.5 * free)
+            });
+        }
+    }
+    Ok(records)
+}
+
+/// Mean distance of the points of a rectangle (m) from its middle, by the midpoint rule.
+fn mean_distance(length: f64, breadth: f64) -> f64 {
+    let middles = || (0..200).map(|i| (f64::from(i) + 0.5) / 200.0 - 0.5);
+    let row = |x: f64| middles().map(move |y| (x * length).hypot(y * breadth));
+    middles().flat_map(row).sum::<f64>() / 4e4
 }
 
 /// Pa/m. The springs release energy when friction drops to its value: the error of the distance falls as 1/√k.

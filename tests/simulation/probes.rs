@@ -6,8 +6,8 @@ use riprap::scene::{Axis, Scene};
 use riprap::simulation::probe::{Gauge, Layer};
 
 /// 8 × 6 × 4 cells of 0.5 m, walls in y, with a block in a corner; z is periodic.
-fn scene(probe: &str) -> Scene {
-    let text = format!(
+fn text(probe: &str) -> String {
+    format!(
         r#"
         [domain]
         size = [4, 3, 2]
@@ -30,8 +30,11 @@ fn scene(probe: &str) -> Scene {
         name = "p"
         {probe}
         "#
-    );
-    kit::scene::read(&text).unwrap()
+    )
+}
+
+fn scene(probe: &str) -> Scene {
+    kit::scene::read(&text(probe)).unwrap()
 }
 
 fn solid(scene: &Scene) -> Vec<bool> {
@@ -155,6 +158,31 @@ fn solids_carry_no_weight_and_points_inside_them_are_no_number() {
     assert_eq!([rows[0][5], rows[4][5]], [1.0, 0.0]);
     near(&rows[3][4..5], &[1.0 + 6.0 - 3.75]);
     near(&rows[4][4..5], &[1.0 + 6.0 - 3.75]);
+}
+
+#[test]
+fn the_weight_of_water_adds_to_the_pressure_at_walls_and_solids() {
+    let heavy = |probe: &str| {
+        let text = text(probe);
+        let scene = text.replace("1e-3", "1e-3\nacceleration = [0, \"-10\", 3]");
+        let scene = kit::scene::read(&scene).unwrap();
+        let gauge = Gauge::new(&scene, &solid(&scene), &scene.probes[0]).unwrap();
+        gauge.measure(&image(&scene)).unwrap()[0].clone()
+    };
+    // 10 kPa/m over a quarter of a metre, below the lowest centre and above the highest.
+    let point = |y: f64| {
+        heavy(&format!(
+            "kind = \"point\"\nat = [1, {y}, 1]\nfields = [\"pressure\"]"
+        ))
+    };
+    near(&point(0.0), &[3.0 - 0.75 + 2500.0]);
+    near(&point(3.0), &[3.0 - 8.25 - 2500.0]);
+    near(&point(1.4), &[3.0 - 4.2]);
+    // Halfway between a solid cell and the first centre above it.
+    let above = "kind = \"point\"\nat = [3, 1.05, 1]\nfields = [\"pressure\"]";
+    near(&heavy(above), &[7.0 - 3.75 + 2000.0]);
+    let top = heavy("kind = \"face\"\nmin = [2, 1, 0]\nmax = [4, 1.5, 2]\nnormal = \"+y\"");
+    near(&top[1..2], &[7.0 - 3.75 + 2500.0]);
 }
 
 #[test]

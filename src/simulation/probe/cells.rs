@@ -14,6 +14,8 @@ pub(super) struct Cells<'a> {
     pub(super) periodic: [bool; 3],
     /// Velocity (m/s) of the walls at the lower and the upper end of each axis.
     pub(super) walls: [[Option<[f64; 3]>; 2]; 3],
+    /// Gradient of the pressure of the fluid at rest, Pa/m: 0 under an acceleration that is not constant.
+    pub(super) gradient: [f64; 3],
     solid: &'a [bool],
 }
 
@@ -29,6 +31,10 @@ impl<'a> Cells<'a> {
             counts: scene.cells(),
             periodic: [0, 1, 2].map(|axis| *at(axis, 0) == Boundary::Periodic),
             walls: [0, 1, 2].map(|axis| [wall(axis, 0), wall(axis, 1)]),
+            gradient: [0, 1, 2].map(|axis| {
+                let acceleration = scene.fluid.acceleration[axis].constant();
+                scene.fluid.density * acceleration.unwrap_or(0.0)
+            }),
             solid,
         }
     }
@@ -139,6 +145,28 @@ pub(super) fn shares(cells: &Cells<'_>, at: [f64; 3]) -> Vec<Share> {
         share.weight /= total;
     }
     shares
+}
+
+/// What the fluid at rest adds to the pressure of `shares` at the point at `at` (m), Pa: near walls and solids their mean centre
+/// is not the point. 0 along periodic axes.
+pub(super) fn weight(cells: &Cells<'_>, at: [f64; 3], shares: &[Share]) -> f64 {
+    let [nx, ny, _] = cells.counts;
+    let along = |axis: usize| {
+        let number = |share: &Share| {
+            [
+                share.cell % nx,
+                share.cell / nx % ny,
+                share.cell / (nx * ny),
+            ]
+        };
+        let mean = shares
+            .iter()
+            .map(|share| share.weight * f64::from(number(share)[axis]));
+        let offset = cells.place(axis, at[axis]) - mean.sum::<f64>();
+        cells.gradient[axis] * offset * cells.domain.cell
+    };
+    let bounded = (0..3).filter(|axis| !cells.periodic[*axis]);
+    bounded.map(along).sum()
 }
 
 /// The two neighbours along `axis` of `place`, a position in cells from the first centre.

@@ -19,11 +19,14 @@
 //! - With particles, values without water are `NaN`: the level of a dry gauge, the place of a run-up, the fields of
 //!   points and boxes.
 //! - Values at points are interpolated trilinearly between cell centres. Between the last centres and a wall, the
-//!   velocity is interpolated to that of the wall; other fields are constant there, as all fields are towards other
-//!   faces. Solid cells have no weight. A value is `NaN` if all cells around a point are solid, and in
+//!   velocity is interpolated to that of the wall, and the pressure has the gradient of the fluid at rest under a constant
+//!   acceleration; other fields are constant there, as all fields are towards other faces. Solid cells have no weight, and
+//!   the pressure next to them has the same gradient. A value is `NaN` if all cells around a point are solid, and in
 //!   the solid cells of a plane. `solid` is the value of the cell around the point.
 //! - A `face` has `area` in m², `force` in N on the solid, along −normal, Σ p Δx² over its cells,
-//!   and the centre of the cell face with the largest pressure: the stagnation point.
+//!   and the centre of the cell face with the largest pressure: the stagnation point. The pressure at the solid has the
+//!   gradient of the fluid at rest from the centre of the cell to its face. Of a solid with an exact surface these are the
+//!   faces of its full cells.
 
 mod cells;
 mod points;

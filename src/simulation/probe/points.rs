@@ -1,6 +1,6 @@
 //! Values at a point, along a line or on the cells of a plane; means, extremes and forces over many cells.
 
-use super::cells::{Cells, Share, shares};
+use super::cells::{Cells, Share, shares, weight};
 use crate::{
     output::{Array, ImageData},
     scene::{Axis, Direction, Field, Scene},
@@ -16,6 +16,8 @@ struct Point {
     coordinates: Vec<f64>,
     /// Contributions to its value, with cells as indices into the list of cells; empty in a solid.
     shares: Vec<Share>,
+    /// What the weight of the fluid between them and the point adds to their pressure, Pa.
+    weight: f64,
     /// Whether the cell around it is solid.
     solid: bool,
 }
@@ -47,6 +49,7 @@ impl Points {
             Point {
                 coordinates: cells.domain.centre(ijk).to_vec(),
                 shares: if solid { vec![] } else { vec![own] },
+                weight: 0.0,
                 solid,
             }
         });
@@ -80,15 +83,21 @@ impl Point {
             Some(wall) if field == Field::Velocity => wall[component],
             _ => array.values[share.cell as usize * array.components + component].into(),
         };
-        self.shares.iter().map(|s| s.weight * of(s)).sum()
+        let value: f64 = self.shares.iter().map(|s| s.weight * of(s)).sum();
+        match field {
+            Field::Pressure | Field::MeanPressure => value + self.weight,
+            _ => value,
+        }
     }
 }
 
 fn point(cells: &Cells<'_>, at: [f64; 3], coordinates: Vec<f64>) -> Point {
     let around = Axis::ALL.map(|axis| cells.layer(axis, at[axis.index()]));
+    let shares = shares(cells, at);
     Point {
         coordinates,
-        shares: shares(cells, at),
+        weight: weight(cells, at, &shares),
+        shares,
         solid: cells.is_solid(cells.index(around)),
     }
 }
@@ -207,6 +216,8 @@ pub(super) struct Face {
     cell: f64,
     /// Centres of the cell faces on the solid, m.
     centres: Vec<[f64; 3]>,
+    /// Pressure of the fluid at rest at the faces over that at the centres of their cells, Pa.
+    weight: f64,
 }
 
 impl Face {
@@ -245,6 +256,7 @@ impl Face {
         let face = Self {
             cell: width,
             centres,
+            weight: -0.5 * f64::from(sign) * width * cells.gradient[axis],
         };
         (face, chosen)
     }
@@ -252,7 +264,7 @@ impl Face {
     /// One row from the pressure on the chosen cells.
     pub(super) fn rows(&self, arrays: &[&Array]) -> Vec<Vec<f64>> {
         let values = arrays.iter().flat_map(|array| &array.values);
-        let pressure = Statistics::of(values.map(|value| f64::from(*value)));
+        let pressure = Statistics::of(values.map(|value| f64::from(*value) + self.weight));
         let area = self.centres.len() as f64 * self.cell * self.cell;
         let mut row = vec![area];
         row.extend(pressure.triple());

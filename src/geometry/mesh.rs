@@ -6,7 +6,7 @@ use super::mesh_file;
 use crate::error::{Error, Result};
 use glam::DVec3;
 use std::{
-    collections::{BTreeMap, HashMap},
+    collections::{BTreeMap, HashMap, HashSet},
     path::Path,
 };
 
@@ -53,6 +53,12 @@ impl TriangleMesh {
         let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
         let bytes = std::fs::read(path)
             .map_err(|e| Error::file(path, format!("cannot read the mesh: {e}; check the path")))?;
+        if bytes.is_empty() {
+            return Err(Error::file(
+                path,
+                "the file is empty; export the mesh again",
+            ));
+        }
         let (vertices, triangles) = match extension.as_deref() {
             #[cfg(feature = "mesh")]
             Some("stl") => mesh_file::read_stl(bytes),
@@ -119,6 +125,12 @@ impl TriangleMesh {
             .map(|(edge, _)| *edge)
             .collect();
         if let Some(first) = boundary.first() {
+            if let Some([a, b, c]) = self.twice() {
+                return Err(format!(
+                    "the mesh has a triangle twice, near {}; remove the duplicates",
+                    middle((a, b.max(c)))
+                ));
+            }
             return Err(format!(
                 "the mesh is open: {} boundary edges, the first near {}; close its holes (in the \
                  scene's coordinates) or export it as a solid",
@@ -139,6 +151,17 @@ impl TriangleMesh {
                 middle(**first)
             )),
         }
+    }
+
+    /// A triangle that occurs twice with the same orientation, from its lowest vertex.
+    fn twice(&self) -> Option<[u32; 3]> {
+        let mut known = HashSet::new();
+        let mut all = self.triangles.iter().copied().map(|mut corners| {
+            let lowest = (0..3).min_by_key(|i| corners[*i]).unwrap_or(0);
+            corners.rotate_left(lowest);
+            corners
+        });
+        all.find(|corners| !known.insert(*corners))
     }
 }
 

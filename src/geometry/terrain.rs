@@ -9,6 +9,10 @@ use std::path::Path;
 
 /// Largest number of triangles of a surface for contact with blocks: each is a convex part.
 const MOST_PRISMS: usize = 200_000;
+/// Numbers of files that stand for no height, whether the file declares them or not: those of surveys, and of programs that
+/// write the least or largest number.
+const NO_DATA: [f64; 4] = [-9999.0, -99999.0, -32768.0, -32767.0];
+const NO_HEIGHT: f64 = 1e6;
 
 /// Heights along z on a grid in x and y. Each rectangle of the grid is divided into two triangles by the diagonal from its
 /// lower to its upper corner. The volume below is solid.
@@ -65,7 +69,7 @@ impl Terrain {
     }
 
     /// Reads an XYZ file of a regular grid, an ESRI ASCII grid or a GeoTIFF whose unit is `scale` (m), and moves its origin to
-    /// `translate` (m).
+    /// `translate` (m). Where the file has its no-data value, −9999, −99999, −32767, −32768, or a number from 1e6, it has no height.
     ///
     /// # Errors
     /// If the file cannot be read, is none of these, or has no rectangle of heights.
@@ -94,7 +98,12 @@ impl Terrain {
             made.spacing[a] *= scale;
         }
         for height in &mut made.heights {
-            *height = *height * scale + translate[2];
+            let none = NO_DATA.contains(height) || height.abs() >= NO_HEIGHT;
+            *height = if none {
+                f64::NAN
+            } else {
+                *height * scale + translate[2]
+            };
         }
         Ok(made)
     }

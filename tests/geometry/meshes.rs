@@ -287,6 +287,7 @@ fn what_is_no_solid_is_refused() {
     let mut told = String::new();
     for (name, triangles, scale) in [
         ("open", all[1..].to_vec(), 1.0),
+        ("twice", [&all[..], &all[3..4]].concat(), 1.0),
         ("inverted", turned(&all), 1.0),
         ("one_turned", one_turned, 1.0),
         ("flat", sheet, 1.0),

@@ -254,4 +254,9 @@ fn terrain_that_is_none_is_refused() {
         "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1\nnodata_value -1\n1 -1 1\n1 1 1\n",
     );
     refused(of("hole.asc", ""), &["solids[0].file", "no height"]);
+    write(
+        "undeclared.xyz",
+        "0 0 1\n1 0 1\n2 0 -9999\n0 1 1\n1 1 1\n2 1 1\n",
+    );
+    refused(of("undeclared.xyz", ""), &["solids[0].file", "no height"]);
 }

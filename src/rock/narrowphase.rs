@@ -294,7 +294,7 @@ impl Narrowphase<'_> {
             overlap: geometry.overlap,
             area: geometry.area,
             elastic_area: geometry.area.max(self.corner_area * square),
-            gyration: geometry.gyration,
+            spread: geometry.spread,
             rolls: parts
                 .iter()
                 .any(|&part| self.parts.placed[part as usize].is_sphere()),
@@ -362,7 +362,7 @@ impl Narrowphase<'_> {
             overlap: now.overlap,
             area: bond.area,
             elastic_area: bond.area,
-            gyration: bond.gyration(),
+            spread: now.spread(bond),
             rolls: false,
             opening: now.overlap - now.smallest_overlap(bond),
         };

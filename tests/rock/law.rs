@@ -1,6 +1,6 @@
 //! The force law of a contact on its own.
 
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use kit::assert_relative;
 use riprap::rock::law::{Force, History, Joint, Motion, Section, force};
 use std::f64::consts::PI;
@@ -14,14 +14,20 @@ const JOINT: Joint = Joint {
     damping: 0.1,
 };
 
+/// A/12 along both axes.
+const SQUARE: DMat3 = DMat3::from_cols(
+    DVec3::new(1.0 / 6.0, 0.0, 0.0),
+    DVec3::new(0.0, 1.0 / 6.0, 0.0),
+    DVec3::ZERO,
+);
+
 /// Pressed by 1 mm over 2 m²: 200 kN.
 const SECTION: Section = Section {
     normal: DVec3::Z,
     overlap: 1e-3,
     area: 2.0,
     elastic_area: 2.0,
-    // A square: A/6.
-    gyration: 0.577_350_269_189_625_8,
+    spread: SQUARE,
     rolls: false,
     opening: 0.0,
 };
@@ -233,25 +239,72 @@ fn shear_over_the_face_resists_a_twist_about_the_normal_up_to_its_friction() {
     let slipped = twisted(1.0, 0.0);
     assert_relative(slipped.couple().z, -twist, 1e-12);
     assert_relative(slipped.friction, twist * (1.0 - twist / (1e8 / 3.0)), 1e-12);
-    // Both at once lie on the ellipse.
+    // Both at once lie on the limit surface, n = 1 + 0.7 (1/2 + 1/4).
     let both = twisted(1.0, 0.5);
-    let [f, t] = [both.total().x / most, both.couple().z / twist];
-    assert!(f < -0.1 && t < -0.1, "{f}, {t}");
-    assert_relative(f.hypot(t), 1.0, 1e-12);
+    let [f, t] = [both.total().x / most, both.couple().z / twist].map(f64::abs);
+    assert!(f > 0.1 && t > 0.1, "{f}, {t}");
+    assert_relative(f * f + t.powf(1.525), 1.0, 1e-12);
     // An edge of 3 m has an arm of a quarter of its length; a circle nearly 2/3 of its radius; a face of 2 m by 1 m the mean
     // distance of its points from the middle, by the midpoint rule.
-    let arm = |area: f64, polar: f64| {
+    let arm = |area: f64, [x, y]: [f64; 2]| {
+        let spread = DMat3::from_diagonal(DVec3::new(x, y, 0.0));
         let section = Section {
             area,
-            gyration: polar.sqrt(),
+            spread,
             ..SECTION
         };
         -on(section, 1.0, 0.0).couple().z / most
     };
-    assert_relative(arm(1e-9, 9.0 / 12.0), 0.75, 1e-6);
-    assert_relative(arm(PI, 0.5), 2.0 / 3.0, 1e-2);
+    assert_relative(arm(1e-9, [9.0 / 12.0, 0.0]), 0.75, 1e-6);
+    assert_relative(arm(PI, [0.25; 2]), 2.0 / 3.0, 1e-2);
     let middles = (0..1000).map(|i| (f64::from(i) + 0.5) / 1000.0);
     let row = |x: f64| middles.clone().map(move |y| x.hypot(0.5 * y)).sum::<f64>();
     let mean = middles.clone().map(row).sum::<f64>() / 1e6;
-    assert_relative(arm(2.0, 5.0 / 12.0), mean, 1e-5);
+    assert_relative(arm(2.0, [4.0 / 12.0, 1.0 / 12.0]), mean, 1e-5);
+}
+
+/// Blocks that rotate about a point yield within 3 % of the force and the moment of uniform pressure over a rectangle.
+#[test]
+fn force_and_moment_share_the_friction_as_under_uniform_pressure() {
+    let middles = |side: f64| (0..60).map(move |i| ((f64::from(i) + 0.5) / 60.0 - 0.5) * side);
+    for [a, b] in [[1.0, 1.0], [2.0, 1.0], [1.0, 2.0], [10.0, 1.0], [1.0, 10.0]] {
+        let all: Vec<DVec3> = middles(a)
+            .flat_map(|x| middles(b).map(move |y| DVec3::new(x, y, 0.0)))
+            .collect();
+        let mean = |value: &dyn Fn(DVec3) -> DVec3| {
+            all.iter().map(|x| value(*x)).sum::<DVec3>() / all.len() as f64
+        };
+        let section = Section {
+            area: 2.0,
+            spread: DMat3::from_diagonal(DVec3::new(a * a, b * b, 0.0) * (2.0 / (12.0 * a * b))),
+            ..SECTION
+        };
+        let scale = (2.0 / (a * b)).sqrt();
+        for distance in [0.1, 0.3, 0.5, 1.0, 3.0] {
+            // About a point on the y axis: the force is along x.
+            let pull = |x: DVec3| {
+                -DVec3::Z
+                    .cross(x - DVec3::Y * distance * a.max(b))
+                    .normalize()
+            };
+            let push = mean(&pull).x;
+            let moment = mean(&|x| x.cross(pull(x))).z * scale;
+            // Shear and twist in this proportion, beyond the limit.
+            let stiffness = JOINT.shear_stiffness * section.area;
+            let polar = section.spread.x_axis.x + section.spread.y_axis.y;
+            let motion = Motion {
+                displacement: DVec3::X * (-1e7 * push / stiffness),
+                spin: DVec3::Z * (-1e7 * moment / (stiffness * polar * REST.time_step)),
+                ..REST
+            };
+            let joint = Joint {
+                damping: 0.0,
+                ..JOINT
+            };
+            let found = force(&joint, &section, &motion, &History::default());
+            let limit = 2e5 * (PI / 6.0).tan();
+            assert_relative(found.total().x / (limit * push), 1.0, 0.03);
+            assert_relative(found.couple().z / (limit * moment), 1.0, 0.03);
+        }
+    }
 }

@@ -194,7 +194,7 @@ pub const CASES: &[Case] = &[
     long("solids/incline-flow", "drag of a cube on a bed of 30° in water that starts to run (Gardner & Sitar 2018)", solids::incline_flow::run),
     short("rock/incline", "a block slides on an incline, or sticks, by its friction angle", rock::incline::slides),
     short("rock/toppling", "a column on an incline topples if tan α > b/h", rock::incline::toppling),
-    short("rock/twist", "a slab and a plank turn under a couple beyond their friction", rock::incline::twist),
+    short("rock/twist", "a slab and a plank turn under a couple or a force at one end beyond their friction", rock::incline::twist),
     short("rock/rebound", "rebound of a block from a fixed one at four damping ratios", rock::dynamics::rebound),
     short("rock/free-body", "free rotation of an asymmetric body", rock::dynamics::free_body),
     short("rock/wedge", "wedges on two planes slide by their factor of safety (Goodman & Shi 1985)", rock::incline::wedge),

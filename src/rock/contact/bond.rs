@@ -1,6 +1,6 @@
 //! A bond between two faces that touch: the contact patch, in the frames of both parts.
 
-use super::{Placed, thin_gap::face_pair};
+use super::{Placed, polygon::spread, thin_gap::face_pair};
 use glam::{DMat3, DVec2, DVec3};
 
 /// Largest gap between faces that touch, as a share of the smaller part's radius: the rounding of scenes and poses.
@@ -115,12 +115,6 @@ impl Bond {
         }
     }
 
-    /// Radius of gyration of the patch about its centroid, m.
-    pub fn gyration(&self) -> f64 {
-        let [along, across] = self.seconds;
-        ((along + across) / self.area).sqrt()
-    }
-
     /// Largest extent of the patch, m.
     pub fn width(&self) -> f64 {
         let [along, across] = self
@@ -138,6 +132,11 @@ impl BondState {
         self.overlap
             + smallest_overlap(self.tilts[1], bond.extents[0])
             + smallest_overlap(-self.tilts[0], bond.extents[1])
+    }
+
+    /// ∫ x xᵀ dA/A of the patch about its centroid, m².
+    pub fn spread(&self, bond: &Bond) -> DMat3 {
+        spread(self.axes, bond.seconds.map(|second| second / bond.area))
     }
 
     /// Bending moment of the pressure u + θ₂ x₁ − θ₁ x₂ of an elastic bed (Winkler) on the second part about the point,

@@ -6,6 +6,7 @@
 use super::{
     ContactGeometry, Placed, Verdict,
     pair::{Pair, Row},
+    polygon::spread,
 };
 use crate::geometry::HalfSpace;
 use glam::{DMat3, DVec3};
@@ -154,6 +155,7 @@ pub(super) fn sphere_polyhedron(block: &Placed, sphere: &Placed) -> Proximity {
 
 /// A contact over a circle with the squared radius `square` (m²).
 fn round(point: DVec3, normal: DVec3, overlap: f64, square: f64) -> ContactGeometry {
+    let (x, y) = normal.any_orthonormal_pair();
     ContactGeometry {
         point,
         normal,
@@ -161,7 +163,7 @@ fn round(point: DVec3, normal: DVec3, overlap: f64, square: f64) -> ContactGeome
         area: PI * square,
         pressure_centre: point,
         width: 2.0 * square.sqrt(),
-        gyration: (0.5 * square).sqrt(),
+        spread: spread([x, y], [0.25 * square; 2]),
         limit: 0.0,
     }
 }

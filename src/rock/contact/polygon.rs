@@ -1,7 +1,7 @@
 //! A convex polygon in a plane, clipped by lines.
 
 use super::section::Bound;
-use glam::DVec2;
+use glam::{DMat3, DVec2, DVec3};
 
 /// Corners in order. Lengths are in L; the origin is inside.
 #[derive(Default)]
@@ -38,6 +38,12 @@ pub(super) struct SecondMoments {
     pub principal: [f64; 2],
     /// Axis along which it is the largest.
     pub axis: DVec2,
+}
+
+/// Σ s a aᵀ over two principal axes a.
+pub(super) fn spread(axes: [DVec3; 2], squares: [f64; 2]) -> DMat3 {
+    let outer = |axis: DVec3| DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
+    outer(axes[0]) * squares[0] + outer(axes[1]) * squares[1]
 }
 
 impl Polygon {
@@ -136,14 +142,6 @@ impl Polygon {
             centre: mean + centre,
             principal: [middle + radius, middle - radius],
             axis: DVec2::from_angle(angle),
-        })
-    }
-
-    /// Radius of gyration about the centroid.
-    pub fn gyration(&self) -> f64 {
-        let seconds = self.second_moments();
-        seconds.map_or(0.0, |of| {
-            (of.principal.iter().sum::<f64>() / of.area).sqrt()
         })
     }
 

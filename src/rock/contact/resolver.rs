@@ -10,7 +10,7 @@ use super::{
     section::Overlap,
 };
 use crate::{Error, Result};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::ops::AddAssign;
 
 /// Share of the smallest centroid-to-face distance beyond which an overlap is deep.
@@ -171,7 +171,7 @@ impl Resolver {
             area: section.area * length * length,
             pressure_centre: place(point + section.pressure_centre),
             width: section.width * length,
-            gyration: section.gyration * length,
+            spread: section.spread * (length * length),
             limit: 0.0,
         }
     }
@@ -377,8 +377,8 @@ pub struct ContactGeometry {
     pub pressure_centre: DVec3,
     /// Largest extent of the section, m.
     pub width: f64,
-    /// Radius of gyration of the section about its centroid, m.
-    pub gyration: f64,
+    /// ∫ x xᵀ dA/A of the section about its centroid, m².
+    pub spread: DMat3,
     /// Overlap beyond which the blocks no longer count as hard, a tenth of the smallest distance of a
     /// face from the centroid of its block, m.
     pub limit: f64,

@@ -3,9 +3,9 @@
 use super::{
     centre::overlap,
     pair::Row,
-    polygon::{Polygon, Polygons},
+    polygon::{Polygon, Polygons, spread},
 };
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// A section, lengths in units of L and positions relative to the analytic centre.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,8 +15,8 @@ pub(super) struct Section {
     pub area: f64,
     pub pressure_centre: DVec3,
     pub width: f64,
-    /// Radius of gyration about the centroid.
-    pub gyration: f64,
+    /// ∫ x xᵀ dA/A about the centroid.
+    pub spread: DMat3,
 }
 
 /// Cosines of 10° and 5°: two faces at an angle of more than 10° touch with an edge, and of less than 5° they lie flat
@@ -71,7 +71,7 @@ impl Overlap<'_> {
             area: mix(cut.area, flat.area),
             pressure_centre: cut.pressure_centre.lerp(flat.pressure_centre, flatness),
             width: mix(cut.width, flat.width),
-            gyration: mix(cut.gyration, flat.gyration),
+            spread: cut.spread + (flat.spread - cut.spread) * flatness,
         }
     }
 
@@ -108,7 +108,7 @@ impl Overlap<'_> {
             area: sums.area,
             pressure_centre: plane.lift(ratio(sums.first, sums.volume)),
             width: section.width(),
-            gyration: section.gyration(),
+            spread: plane.spread(section),
         }
     }
 
@@ -139,7 +139,7 @@ impl Overlap<'_> {
                 area: moments.area,
                 pressure_centre: plane.lift(ratio(moments.first, moments.volume)),
                 width: polygon.width(),
-                gyration: polygon.gyration(),
+                spread: plane.spread(polygon),
             };
             (section, least / most)
         })
@@ -181,6 +181,15 @@ struct Plane {
 impl Plane {
     fn lift(&self, p: DVec2) -> DVec3 {
         self.origin + self.x * p.x + self.y * p.y
+    }
+
+    /// ∫ x xᵀ dA/A about the centroid of a polygon in the plane; 0 without area.
+    fn spread(&self, polygon: &Polygon) -> DMat3 {
+        polygon.second_moments().map_or(DMat3::ZERO, |of| {
+            let axis = self.x * of.axis.x + self.y * of.axis.y;
+            let other = self.y * of.axis.x - self.x * of.axis.y;
+            spread([axis, other], of.principal.map(|second| second / of.area))
+        })
     }
 
     fn gradient(&self, normal: DVec3) -> DVec2 {

@@ -4,15 +4,17 @@
 //! f_n = k_n A u_n, f_s ← f_s − k_s A Δu_s, |f_s| ≤ F = cA + f_n tan φ, c_n = 2ζ√(m* k_n A).
 //!
 //! The springs act at the pressure centre, the point of action of the resultant pressure over the face. Shear over the face also
-//! resists a twist about the normal: T ← T − k_s A ρ² Δθ, ρ the radius of gyration of the section about its centroid. Sliding and
-//! twist share the friction: (|f_s|/F)² + (T/T_max)² ≤ 1 (Howe & Cutkosky 1996, Int. J. Robot. Res. 15:557), where T_max = d F is
-//! the moment of friction under uniform pressure, and d the mean distance of the points of the section from its middle: that of
-//! the rectangle with the same area and the same ρ, a quarter of the length of an edge on which a block stands.
+//! resists a twist about the normal: T ← T − k_s A ρ² Δθ, where ρ² = tr S, and S = ∫ x xᵀ dA/A about the centroid of the section.
+//! Sliding and twist share the friction: (|f_s|/F)² + (|T|/T_max)ⁿ ≤ 1. T_max = d F is the moment of friction under uniform pressure,
+//! and d the mean distance of the points of the section from its middle: that of the rectangle with the same area and ρ, a quarter of
+//! the length of an edge on which a block stands. n = 1 + 0.7 (s + s²), s = e·S e/ρ² with the direction e of f_s, agrees with the
+//! limit surfaces of rectangles of any sides under uniform pressure (Howe & Cutkosky 1996, Int. J. Robot. Res. 15:557, who have
+//! n = 2) within 2 % of the load.
 //!
 //! The dashpots are distributed over the face like the springs: 3DEC has them in every sub-contact. At a single point they
 //! would not damp rocking, since the pressure centre of a rocking block moves with the angle:
-//! the damping would be of second order in it, and a stack would never come to rest. Their moment is
-//! that of a square face of the contact's area for rocking, A/12, and ρ² for twist. A sphere rolls on its contact
+//! the damping would be of second order in it, and a stack would never come to rest. Their moments
+//! are c_n n × S (n × ω) for rocking and c_s ρ² for twist. A sphere rolls on its contact
 //! instead of rocking: the contact moves with it, the springs dissipate nothing, and no dashpot resists the rolling.
 //!
 //! A bond is a contact whose springs also carry tension: it keeps its initial area, and bends over it as an elastic
@@ -25,7 +27,7 @@
 //! block's centroid to the contact, w the width of its section; Δt ≤ share · 2/ω.
 
 use crate::{Error, Result};
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 /// History of a contact from step to step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -54,8 +56,8 @@ pub struct Section {
     pub area: f64,
     /// Area of springs and dashpots, m²: A, or more if A is the area of a corner.
     pub elastic_area: f64,
-    /// Radius of gyration ρ of the section about its centroid, m.
-    pub gyration: f64,
+    /// S = ∫ x xᵀ dA/A about the centroid of the section, m².
+    pub spread: DMat3,
     /// Whether one of the two parts is a sphere, which rolls.
     pub rolls: bool,
     /// Opening of a bond at its widest corner less the opening at its middle, m: 0 without bending.
@@ -118,7 +120,7 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
         overlap,
         area,
         elastic_area,
-        gyration,
+        spread,
         rolls,
         opening,
     } = *section;
@@ -143,15 +145,26 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let strength = joint.cohesion * area + pressed.max(0.0) * tan_phi;
     let tangential = motion.displacement - normal * motion.displacement.dot(normal);
     let twist = motion.spin.dot(normal);
-    let polar = gyration * gyration;
+    let polar = spread.x_axis.x + spread.y_axis.y + spread.z_axis.z;
     let torsional_stiffness = shear_stiffness * polar;
-    let trial = Friction {
-        force: turned(history, normal, motion) - shear_stiffness * tangential,
-        torsion: history.torsion - torsional_stiffness * twist * motion.time_step,
+    let arm = mean_arm(area, polar);
+    let limit = Limit {
+        force: strength,
+        torsion: arm * strength,
+        spread,
+        polar,
     };
-    let arm = mean_arm(area, gyration);
-    let limit = [strength, arm * strength];
-    let held = trial.within(limit);
+    let stored = Friction {
+        force: turned(history, normal, motion),
+        torsion: history.torsion,
+    };
+    let added = Friction {
+        force: -shear_stiffness * tangential,
+        torsion: -torsional_stiffness * twist * motion.time_step,
+    };
+    let trial = stored.plus(added);
+    // If the face shrinks, what exceeds one limit does not reduce the other part.
+    let held = stored.each_within(&limit).plus(added).within(&limit);
     // Slip is the part of the displacement that the spring does not take; the force is the mean over the slip.
     let slip = (trial.force - held.force) / shear_stiffness;
     let turned_by = match torsional_stiffness {
@@ -165,24 +178,27 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let sliding = motion.velocity - normal * opening_rate;
     let mass = motion.mass;
     let viscosity = dashpot(joint.damping, mass, shear_stiffness);
-    let damped = Friction {
-        force: held.force - viscosity * sliding,
-        torsion: held.torsion - viscosity * polar * twist,
+    let damping = Friction {
+        force: -viscosity * sliding,
+        torsion: -viscosity * polar * twist,
     };
-    let damped = damped.within(limit);
+    let damped = held.plus(damping).within(&limit);
 
     let rocking = match rolls {
         true => DVec3::ZERO,
         false => motion.spin - normal * twist,
     };
-    let rock = dashpot(joint.damping, mass, normal_stiffness) * (area / 12.0) * rocking;
-    // Pressure cannot pull: the resultant stays in the face, within half a side of its middle.
+    let lever = spread * normal.cross(rocking);
+    let rock = dashpot(joint.damping, mass, normal_stiffness) * lever.cross(normal);
+    // Pressure cannot pull: the resultant stays in the face, within half the side of a rectangle, √(3 l·S l), l across the axis.
+    let across = normal.cross(rock).normalize_or_zero();
+    let reach = (3.0 * across.dot(spread * across)).max(0.0).sqrt();
     let grip = if bonded {
         pressed - least
     } else {
         pressed.max(0.0)
     };
-    let moment = normal * (damped.torsion - held.torsion) - capped(rock, 0.5 * area.sqrt() * grip);
+    let moment = normal * (damped.torsion - held.torsion) - capped(rock, reach * grip);
 
     let inward = motion.frame.conjugate();
     Force {
@@ -203,10 +219,10 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
 }
 
 /// Mean distance, m, of the points of a rectangle from its middle: the arm of friction against a twist. `area`, m², and
-/// `gyration`, m, determine its sides; a rounder section than a square has the ratio of the square.
-fn mean_arm(area: f64, gyration: f64) -> f64 {
+/// `polar`, ρ² in m², determine its sides; a rounder section than a square has the ratio of the square.
+fn mean_arm(area: f64, polar: f64) -> f64 {
     // (a + b)² and (a − b)² of the sides a and b: a b = A, a² + b² = 12 ρ².
-    let squares = 12.0 * gyration * gyration;
+    let squares = 12.0 * polar;
     let [sum, difference] = [2.0, -2.0].map(|n| (squares + n * area).max(0.0).sqrt());
     let long = 0.25 * (sum + difference);
     let short = (0.25 * area / long).min(long);
@@ -216,21 +232,71 @@ fn mean_arm(area: f64, gyration: f64) -> f64 {
     let diagonal = long.hypot(short);
     let of_side = |a: f64, b: f64| a * a / b * (b / a).asinh();
     let mean = diagonal / 3.0 + (of_side(long, short) + of_side(short, long)) / 6.0;
-    mean * gyration * 3f64.sqrt() / diagonal
+    mean * (3.0 * polar).sqrt() / diagonal
 }
 
 /// Friction of a face: a force along it, N, and a moment about its normal, N m.
+#[derive(Clone, Copy, Default)]
 struct Friction {
     force: DVec3,
     torsion: f64,
 }
 
+/// Limits of friction over a section: of a force alone, N, and of a moment alone, N m, with its S and ρ², m².
+struct Limit {
+    force: f64,
+    torsion: f64,
+    spread: DMat3,
+    polar: f64,
+}
+
 impl Friction {
-    /// The friction in the same proportion within the limits of a force alone and of a moment alone.
-    fn within(&self, [force, torsion]: [f64; 2]) -> Self {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            force: self.force + other.force,
+            torsion: self.torsion + other.torsion,
+        }
+    }
+
+    /// Force and moment, each within its own limit.
+    fn each_within(self, limit: &Limit) -> Self {
+        Self {
+            force: capped(self.force, limit.force),
+            torsion: self.torsion.clamp(-limit.torsion, limit.torsion),
+        }
+    }
+
+    /// The friction in the same proportion within the limit.
+    fn within(self, limit: &Limit) -> Self {
         let relative = |part: f64, most: f64| if part == 0.0 { 0.0 } else { part / most };
-        let share = relative(self.force.length(), force).hypot(relative(self.torsion, torsion));
-        let part = share.max(1.0).recip();
+        let length = self.force.length();
+        let force = relative(length, limit.force);
+        let torsion = relative(self.torsion.abs(), limit.torsion);
+        // n is at least 1.
+        if force * force + torsion <= 1.0 {
+            return self;
+        }
+        let most = force.max(torsion);
+        if most.is_infinite() {
+            return Self::default();
+        }
+        let [force, torsion] = [force / most, torsion / most];
+        let mut part = 1.0;
+        if torsion > 0.0 && force > 0.0 {
+            let along = self.force / length;
+            let share = along.dot(limit.spread * along) / limit.polar;
+            let exponent = 1.0 + 0.7 * (share + share * share);
+            // Newton's method for (part · force)² + (part · torsion)ⁿ = 1 from above: the left side is convex.
+            for _ in 0..20 {
+                let [f, t] = [(part * force).powi(2), (part * torsion).powf(exponent)];
+                let change = (f + t - 1.0) * part / (2.0 * f + exponent * t);
+                part -= change;
+                if change <= 1e-15 {
+                    break;
+                }
+            }
+        }
+        let part = (part / most).min(1.0);
         Self {
             force: self.force * part,
             torsion: self.torsion * part,

@@ -1,7 +1,7 @@
 //! Piles at rest: their contacts with warm and with cold caches, the step of all of their blocks, and the split of its time.
 
 use super::{Basis, Core, Plan, Row, fastest};
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use kit::{
     clock::{Spent, Stopwatch},
     pile::Pile,
@@ -270,7 +270,7 @@ fn sections(pile: &Pile) -> Vec<(Section, Motion, History)> {
             overlap: contact.overlap,
             area: contact.area,
             elastic_area: contact.area,
-            gyration: (contact.area / 6.0).sqrt(),
+            spread: DMat3::IDENTITY * (contact.area / 12.0),
             rolls: false,
             opening: 0.0,
         };

@@ -1,8 +1,8 @@
 // Two cells per word: the lower one in the low half.
-// needs lanes_2
+// needs half, lanes_2
 
 fn pack(value: Real) -> u32 {
-    return pack2x16float(value);
+    return pack_half(value);
 }
 
 fn unpack(word: u32) -> Real {

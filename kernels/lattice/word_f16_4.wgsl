@@ -1,8 +1,8 @@
 // Four cells in two words, low halves first.
-// needs lanes_4
+// needs half, lanes_4
 
 fn pack(value: Real) -> vec2<u32> {
-    return vec2(pack2x16float(value.xy), pack2x16float(value.zw));
+    return vec2(pack_half(value.xy), pack_half(value.zw));
 }
 
 fn unpack(word: vec2<u32>) -> Real {

@@ -1,8 +1,8 @@
 // Four cells per 64-bit word, low halves first.
-// needs lanes_4
+// needs half, lanes_4
 
 fn pack(value: Real) -> u64 {
-    return u64(pack2x16float(value.xy)) | (u64(pack2x16float(value.zw)) << 32u);
+    return u64(pack_half(value.xy)) | (u64(pack_half(value.zw)) << 32u);
 }
 
 fn unpack(word: u64) -> Real {

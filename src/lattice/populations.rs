@@ -64,12 +64,16 @@ fn write_scalar(s: u32, n: u32, value: f32) { write_word(s, n, value); }
 }
 fn write_scalar(s: u32, n: u32, value: f32) {
     if ((n & 1u) != cell_pass.half) { return; }
-    let half = pack2x16float(vec2(value * 32768.0, 0.0)) & 0xffffu;
+    let half = pack_half(vec2(value * 32768.0, 0.0)) & 0xffffu;
     let kept = read_word(s, n) & (0xffff0000u >> (16u * cell_pass.half));
     write_word(s, n, kept | (half << (16u * cell_pass.half)));
 }
 "
         }
     };
-    format!("// needs scalar_grid\n{text}{access}")
+    let needs = match storage {
+        Storage::F32 => "",
+        Storage::F16 => "half, ",
+    };
+    format!("// needs {needs}scalar_grid\n{text}{access}")
 }

@@ -2,17 +2,13 @@
 
 use std::fmt;
 
-use super::{
-    Boundary, Collision, EddyViscosity, Face, InitialPressure, Numerics, Scene, Storage, WallModel,
-};
+use super::{Collision, EddyViscosity, InitialPressure, Numerics, Scene, Storage, WallModel};
 use crate::error::{Error, Result};
 use crate::units::Units;
 
 /// Above this Mach number the error of compressibility, about Ma², exceeds 10 %, and no collision
 /// operator here is stable at low viscosity.
 const MOST_MACH: f64 = 0.3;
-/// Relative change of the velocity in a step below which 16 bits, whose last digit is 5e-4, lose more than about 2 % of a force.
-const SLOWEST_DRIVING: f64 = 1e-3;
 /// Above this Mach number the error of compressibility exceeds 2 %.
 pub const HIGH_MACH: f64 = 0.15;
 /// Above this relative change of density the fluid's weight affects the flow: drag and inertia change by as much.
@@ -79,7 +75,6 @@ impl Scene {
         adviser.cell_reynolds();
         adviser.weight();
         adviser.friction_of_surfaces();
-        adviser.slow_driving();
         adviser.pressures()?;
         Ok(adviser.advice)
     }
@@ -291,35 +286,6 @@ impl Adviser<'_> {
                 "is exact, and with numerics.storage = \"f16\" the wall model does not act on surfaces that cut cells: their friction is \
                  that of the grid, whatever their roughness; use storage = \"f32\""
                     .into(),
-            );
-        }
-    }
-
-    /// Warns of 16-bit storage with a force that drives a flow through the domain so slowly that rounding takes part of it.
-    fn slow_driving(&mut self) {
-        let scene = self.scene;
-        if scene.numerics.storage == Storage::F32 {
-            return;
-        }
-        let driving = (0..3).filter(|&axis| {
-            let faces = &Face::ALL[2 * axis..2 * axis + 2];
-            faces
-                .iter()
-                .all(|face| *scene.boundaries.face(*face) == Boundary::Periodic)
-        });
-        let acceleration = driving
-            .filter_map(|axis| scene.fluid.acceleration[axis].constant())
-            .map(f64::abs)
-            .fold(0.0, f64::max);
-        let part = acceleration * self.units.time_step / self.speed;
-        if acceleration > 0.0 && part < SLOWEST_DRIVING {
-            self.warn(
-                "numerics.storage",
-                format!(
-                    "is \"f16\", and fluid.acceleration changes the velocity by {part:.1e} of {} m/s in a step, less than \
-                     {SLOWEST_DRIVING}: where the flow is smooth, rounding takes a part of that; use storage = \"f32\" for laminar flow",
-                    self.speed
-                ),
             );
         }
     }

@@ -29,9 +29,9 @@ fn momentum_is_what_each_force_has_put_in() {
     assert_contains(none.unwrap_err(), &["force", "the same in all cells"]);
 }
 
-/// In a laminar channel in which a step of the force changes the velocity by 1e-4 of it, 16 bits lose part of the force.
+/// In a laminar channel in which a step of the force changes the velocity by 1e-4 of it, less than the last digit of 16 bits.
 #[test]
-fn sixteen_bits_lose_a_force_that_drives_a_smooth_flow_slowly() {
+fn sixteen_bits_keep_a_force_that_drives_a_smooth_flow_slowly() {
     let rig = Rig::new();
     let momentum = |storage| {
         let mut setup = Setup::periodic([4, 4, 24], 0.01);
@@ -46,5 +46,5 @@ fn sixteen_bits_lose_a_force_that_drives_a_smooth_flow_slowly() {
         rig.wait(sums).unwrap().momentum[0]
     };
     let kept = momentum(Storage::F16) / momentum(Storage::F32);
-    assert!((0.8..0.95).contains(&kept), "{kept}");
+    assert!((0.99..1.01).contains(&kept), "{kept}");
 }

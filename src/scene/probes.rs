@@ -39,7 +39,8 @@ pub struct Probe {
 #[serde(rename_all = "snake_case")]
 #[schemars(tag = "kind")]
 pub enum ProbePlace {
-    /// One point, interpolated; in particles their kernel-weighted mean, and `NaN` where there is no water.
+    /// One point, interpolated; in particles the plane that fits those around it best, and `NaN` where there
+    /// is no water.
     Point {
         /// The point, m.
         at: [f64; 3],

@@ -9,12 +9,14 @@ use crate::{
         kernel::Kernel,
     },
 };
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// Water fraction at the free surface relative to that below it: half of the kernel is above a flat surface.
 const SURFACE_FRACTION: f64 = 0.5;
 /// Water fraction below which a particle is a drop: half of the fraction at a flat surface.
 const DROP_FRACTION: f64 = 0.25;
+/// Mean square distance of particles along an axis, relative to h², that is added to the true one of a fit.
+const LEAST_SPREAD: f64 = 1e-4;
 
 /// Particles with the kernel that interpolates them.
 #[derive(Clone, Copy, Debug)]
@@ -82,19 +84,34 @@ impl<'a> Interpolator<'a> {
         self.volume() * weights.sum::<f64>()
     }
 
-    /// Shepard mean (Shepard 1968) at `at` (m) of the `values` of the particles, corrected for a field with the uniform
-    /// `gradient` (per metre): with the gradient of the hydrostatic pressure, the pressure of still water is exact also
-    /// near walls. `None` if no particle is within the support.
+    /// Value at `at` (m) of the plane that the `values` of the particles fit best (moving least squares with the kernel as
+    /// weight, Lancaster & Salkauskas 1981), so that linear profiles are exact up to walls. Drops have their Shepard mean, after
+    /// subtraction of a uniform `gradient` (per metre), such as that of the hydrostatic pressure. `None` if no particle is
+    /// within the support.
     pub fn mean(&self, at: DVec3, values: &[f64], gradient: DVec3) -> Option<f64> {
-        let mut sum = 0.0;
-        let mut weights = 0.0;
+        let (mut weights, mut first, mut second) = (0.0, DVec3::ZERO, DMat3::ZERO);
+        let (mut sum, mut moment) = (0.0, DVec3::ZERO);
         for (x, value) in self.positions.iter().zip(values) {
             let r = self.separation(at, *x);
             let weight = self.kernel.at(r.length());
-            sum += weight * (value - gradient.dot(r));
+            let value = value - gradient.dot(r);
+            let lever = weight * r;
             weights += weight;
+            first += lever;
+            second += DMat3::from_cols(lever * r.x, lever * r.y, lever * r.z);
+            sum += weight * value;
+            moment += value * lever;
         }
-        (weights > 0.0).then(|| sum / weights)
+        if weights <= 0.0 {
+            return None;
+        }
+        if weights * self.volume() < DROP_FRACTION {
+            return Some(sum / weights);
+        }
+        // Keeps the matrix regular in planar flow and in sheets of one layer.
+        let least = LEAST_SPREAD * weights * self.kernel.smoothing_length.powi(2);
+        let slope = (second + DMat3::from_diagonal(DVec3::splat(least))).inverse() * first;
+        Some((sum - slope.dot(moment)) / (weights - slope.dot(first)))
     }
 
     /// Height of the free surface at (x, y), m: the highest point at which the water fraction is half of its maximum

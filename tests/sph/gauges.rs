@@ -99,6 +99,19 @@ fn the_pressure_of_still_water_is_exact_also_at_walls() {
     );
 }
 
+/// The mean over the water next to a wall is that half a spacing away and more.
+#[test]
+fn a_shear_flow_is_zero_at_its_wall() {
+    let (setup, positions) = water(|_, _| 0.5);
+    let velocities: Vec<f64> = positions.iter().map(|x| 3.0 * x.z).collect();
+    let gauges = Interpolator::new(&setup, &positions);
+    for z in [0.0, 0.025, 0.2] {
+        let at = DVec3::new(0.5, 0.31, z);
+        let found = gauges.mean(at, &velocities, DVec3::ZERO).unwrap();
+        assert_near(found, 3.0 * z, 1e-3);
+    }
+}
+
 #[test]
 fn gauges_see_periodic_images() {
     let (mut setup, positions) = water(|_, _| 0.5);

@@ -419,8 +419,8 @@ impl Survey<'_> {
         self.padded_index(if fluid { inner } else { cell })
     }
 
-    /// Target of direction `q`. If it crosses several faces, the first of solid, wall, moving
-    /// wall, velocity, pressure or outflow, free slip applies.
+    /// Target of direction `q`. If it crosses several faces, the first of solid, velocity, wall, moving wall, pressure or outflow,
+    /// free slip applies: so the flow through a velocity face between walls is exact.
     pub(super) fn beyond(&self, cell: [u32; 3], q: usize) -> Beyond {
         let mut to = cell;
         let mut crossed = [None; 3];
@@ -443,9 +443,9 @@ impl Survey<'_> {
         let mut slip = [false; 3];
         for (axis, side) in (0..3).filter_map(|a| Some((a, crossed[a]?))) {
             let (rank, beyond) = match &self.setup.faces[axis][side] {
-                Face::Wall([0.0, 0.0, 0.0]) => (5, Beyond::Wall),
-                Face::Wall(_) => (4, Beyond::Moving(axis)),
-                Face::Velocity(_) => (3, Beyond::Moving(axis)),
+                Face::Velocity(_) => (5, Beyond::Moving(axis)),
+                Face::Wall([0.0, 0.0, 0.0]) => (4, Beyond::Wall),
+                Face::Wall(_) => (3, Beyond::Moving(axis)),
                 Face::Pressure { .. } | Face::Outflow { .. } => (2, Beyond::Open(axis, side)),
                 Face::FreeSlip | Face::Periodic => {
                     slip[axis] = true;

@@ -253,7 +253,7 @@ pub enum Quantity {
     BlockKineticEnergy,
     /// Potential energy of the blocks in gravity, relative to the time 0, J.
     BlockPotentialEnergy,
-    /// Strain energy of the deformable blocks, J.
+    /// Strain energy of the deformable blocks, J, from their state at the start: with an `initial_stress` it may become negative.
     StrainEnergy,
     /// Energy in the springs of the current contacts of the blocks, J: the work done on them since the contacts began. Negative
     /// if the area of a contact grew under compression, so that its springs returned more energy than they stored: see
@@ -266,7 +266,7 @@ pub enum Quantity {
     /// Energy in the springs of contacts when these ended, J: energy lost in contacts, or gained if it is negative. The
     /// springs conserve energy only while the area of their contact is constant; this is the error of the contact law.
     ContactLoss,
-    /// Energy added by driven blocks and external loads, J.
+    /// Energy added to the blocks by driven blocks and external loads, J; what blocks give to free water is `lost_to_water`.
     OutsideWork,
     /// Relative error of the energy balance of the blocks, no unit: the sum of `block_kinetic_energy`,
     /// `block_potential_energy`, `strain_energy`, `contact_energy`, `friction_work`, `damping_work` and `contact_loss`, minus

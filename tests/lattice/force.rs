@@ -1,6 +1,6 @@
 //! A body force that changes between two steps.
 
-use kit::{Rig, assert_contains, assert_near};
+use kit::{Rig, assert_contains, assert_near, assert_relative};
 use riprap::lattice::{Face, Force, Observer, Setup, State, Storage};
 
 /// Populations carry momentum without half of the force of the coming step; the momentum that is read includes it.
@@ -47,4 +47,20 @@ fn sixteen_bits_keep_a_force_that_drives_a_smooth_flow_slowly() {
     };
     let kept = momentum(Storage::F16) / momentum(Storage::F32);
     assert!((0.99..1.01).contains(&kept), "{kept}");
+}
+
+/// At edges with walls too: a closed box gains the mass that its velocity face feeds.
+#[test]
+fn the_flow_through_a_velocity_face_between_walls_is_exact() {
+    let rig = Rig::new();
+    let mut setup = Setup::periodic([5, 4, 3], 0.05);
+    setup.faces = [const { [const { Face::Wall([0.0; 3]) }; 2] }; 3];
+    setup.faces[0][0] = Face::Velocity(vec![[0.01, 0.0, 0.0]; 12]);
+    let mut lattice = rig.start(setup, &State::rest(60), true);
+    rig.run(&mut lattice, 1);
+    let mut observer = Observer::new(&rig.device, &lattice).unwrap();
+    let sums = observer.sums(&rig.device, &rig.queue, &mut lattice);
+    let gained = rig.wait(sums).unwrap().excess;
+    // ρ u A, ρ = 1/(1 − u) in the cells at the face.
+    assert_relative(gained, 0.12 / 0.99, 1e-4);
 }

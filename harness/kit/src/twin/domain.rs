@@ -108,7 +108,7 @@ impl Domain {
 
     /// The link that leaves a fluid cell in direction `i`.
     ///
-    /// Where several boundaries meet, this order decides: solid, wall at rest, moving wall, velocity face, free slip;
+    /// Where several boundaries meet, this order decides: solid, velocity face, wall at rest, moving wall, free slip;
     /// between two of a kind the one on the lower axis.
     /// A link that leaves the domain along a solid, so that it meets the edge between the two, counts as meeting the solid.
     pub fn link(&self, cell: usize, i: usize) -> Link {
@@ -187,9 +187,9 @@ impl Domain {
 /// Precedence of a face where several meet: the smallest decides.
 fn rank(face: &Face) -> u32 {
     match face {
-        Face::Wall([0.0, 0.0, 0.0]) => 0,
-        Face::Wall(_) => 1,
-        Face::Velocity(_) => 2,
+        Face::Velocity(_) => 0,
+        Face::Wall([0.0, 0.0, 0.0]) => 1,
+        Face::Wall(_) => 2,
         Face::FreeSlip | Face::Periodic => 3,
     }
 }

@@ -262,7 +262,7 @@ impl Friction {
     fn each_within(self, limit: &Limit) -> Self {
         Self {
             force: capped(self.force, limit.force),
-            torsion: self.torsion.clamp(-limit.torsion, limit.torsion),
+            torsion: self.torsion.min(limit.torsion).max(-limit.torsion),
         }
     }
 

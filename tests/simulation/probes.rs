@@ -178,7 +178,7 @@ fn the_weight_of_water_adds_to_the_pressure_at_walls_and_solids() {
     near(&point(0.0), &[3.0 - 0.75 + 2500.0]);
     near(&point(3.0), &[3.0 - 8.25 - 2500.0]);
     near(&point(1.4), &[3.0 - 4.2]);
-    // Halfway between a solid cell and the first centre above it.
+    // Between a solid cell and the first centre above it.
     let above = "kind = \"point\"\nat = [3, 1.05, 1]\nfields = [\"pressure\"]";
     near(&heavy(above), &[7.0 - 3.75 + 2000.0]);
     let top = heavy("kind = \"face\"\nmin = [2, 1, 0]\nmax = [4, 1.5, 2]\nnormal = \"+y\"");

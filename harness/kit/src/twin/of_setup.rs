@@ -164,7 +164,7 @@ pub fn layouts() -> [(Storage, u32, usize); 7] {
 pub fn walled(lanes: u32, storage: Storage) -> Setup {
     let mut setup = Setup::periodic([6, 5, 7], 0.02);
     (setup.lanes, setup.storage) = (lanes, storage);
-    let inlet = (0..5 * 7).map(|n| [0.02, 0.01 * noise(n) as f32, 0.01 * noise(99 + n) as f32]);
+    let inlet = (0..5 * 7).map(|n| [198, 0, 99].map(|of| 0.01 * noise(of + n) as f32));
     setup.faces = [
         [Face::Velocity(inlet.collect()), Face::FreeSlip],
         [Face::Wall([0.0; 3]), Face::Wall([0.04, 0.0, -0.02])],

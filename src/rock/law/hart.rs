@@ -9,7 +9,7 @@
 //! and d the mean distance of the points of the section from its middle: that of the rectangle with the same area and ρ, a quarter of
 //! the length of an edge on which a block stands. n = 1 + 0.7 (s + s²), s = e·S e/ρ² with the direction e of f_s, agrees with the
 //! limit surfaces of rectangles of any sides under uniform pressure (Howe & Cutkosky 1996, Int. J. Robot. Res. 15:557, who have
-//! n = 2) within 2 % of the load.
+//! n = 2) within 3 % of the load.
 //!
 //! The dashpots are distributed over the face like the springs: 3DEC has them in every sub-contact. At a single point they
 //! would not damp rocking, since the pressure centre of a rocking block moves with the angle:

@@ -180,7 +180,7 @@ pub enum Storage {
     /// 32 bits per population.
     #[default]
     F32,
-    /// 16 bits per population: half the memory and traffic, relative rounding 5e-4.
+    /// 16 bits per population: half the memory and traffic, relative rounding 1e-3.
     F16,
 }
 

@@ -99,16 +99,16 @@ fn collide_with_solid(
     let higher = with_law(higher_without_law, share_of_law);
     *h = s;
     let fluid = (psm.shares > Real(0.0)) & !solid(cell);
-    let adjacent = psm.adjacent & !solid(cell);
+    let clear = (psm.adjacent | !(e > Real(0.0))) & !solid(cell);
     let beta = select(Real(0.0), weight / max(psm.shares, Real(1e-30)), fluid);
     // Values beyond the domain may be NaN; they must not count.
     let a = factor * rho;
     let each = 2.0 * closure / max(psm.shares, Real(1.0));
-    write_psm(PLANE_BETA, slot, local, pack_reals(select(beta, Real(1.0), adjacent)));
-    write_psm(PLANE_A, slot, local, pack_reals(select(select(Real(0.0), beta * a, fluid), excess, adjacent)));
-    write_psm(PLANE_G, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[1u] - a * v.x), fluid) + each * lost.x, u.x, adjacent)));
-    write_psm(PLANE_G + 1u, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[3u] - a * v.y), fluid) + each * lost.y, u.y, adjacent)));
-    write_psm(PLANE_G + 2u, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[9u] - a * v.z), fluid) + each * lost.z, u.z, adjacent)));
+    write_psm(PLANE_BETA, slot, local, pack_reals(select(beta, Real(1.0), clear)));
+    write_psm(PLANE_A, slot, local, pack_reals(select(select(Real(0.0), beta * a, fluid), excess, clear)));
+    write_psm(PLANE_G, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[1u] - a * v.x), fluid) + each * lost.x, u.x, clear)));
+    write_psm(PLANE_G + 1u, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[3u] - a * v.y), fluid) + each * lost.y, u.y, clear)));
+    write_psm(PLANE_G + 2u, slot, local, pack_reals(select(select(Real(0.0), beta * ((*h)[9u] - a * v.z), fluid) + each * lost.z, u.z, clear)));
     return SolidWeights(weight, higher);
 }
 

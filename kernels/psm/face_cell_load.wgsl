@@ -1,4 +1,4 @@
-// Batchelor 1967, eq. 3.3.11 at a wall: the traction t = -p n + nu du/dn of the fluid on one face of a part, from the
+// Batchelor 1967, eq. 3.3.11 at a wall: the traction t = -p n + nu du/dn of the fluid on one face of a part, from a
 // layer of cells along it; the tangential velocity is linear between the face and a cell's centre. Forces
 // inside the solid belong to no face: full cells reflect the populations that they contained when they were covered.
 // needs solid_cell, psm_planes, face_layer, face_siblings
@@ -10,6 +10,8 @@ struct FaceJob {
     tile: u32,
     // Index of the face in its part.
     face: u32,
+    // Layer of cells along the face: 0, or 1 for the one over it.
+    layer: u32,
 }
 
 @group(0) @binding(4) var<storage, read> jobs: array<FaceJob>;
@@ -23,7 +25,7 @@ var<private> sums: array<f32, FACE_LOAD>;
 fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
     let part = parts[tile.part];
     let cell = tile.cell + vec3<i32>(place_in_brick(local));
-    let layer = layer_cell(part, job.face, centre_from(cell, part.base, part.fraction));
+    let layer = layer_cell(part, job.face, job.layer, centre_from(cell, part.base, part.fraction));
     if (!layer.here) {
         return;
     }
@@ -33,8 +35,7 @@ fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
     }
     let at = local * LANES_OF_ELEMENT + tile.lane;
     // The cell may contain another block or a wall.
-    let sum = decode_sum(read_psm(PLANE_SUM, tile.slot, at));
-    let fluid = sum.adjacent && read_psm(PLANE_BETA, tile.slot, at) != 0.0;
+    let fluid = read_psm(PLANE_SUM, tile.slot, at) <= 0.0 && read_psm(PLANE_BETA, tile.slot, at) != 0.0;
     if (!fluid && hidden == CUT) {
         return;
     }
@@ -64,12 +65,14 @@ fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
     sums[FACE_LOAD - 2u] += 1.0;
 }
 
-// Adds every `stride`-th cell of a job, starting at `local`. Only cells that the part can reach may be next to it.
+// Adds every `stride`-th cell of a job, starting at `local`. Only cells that the part can reach may be in a layer.
 fn add_layer(job: FaceJob, local: u32, stride: u32) {
     let tile = tiles[job.tile];
     let reach = reach_of(tile.inside);
     for (var l = reach.x + local; l < reach.y; l += stride) {
-        if (solid_fractions[job.tile * WORKGROUP + l] < 0.0) {
+        let mark = solid_fractions[job.tile * WORKGROUP + l];
+        let apart = job.layer > 0u && mark == 0.0 && in_domain(place_in_brick(l), tile.inside);
+        if (mark < 0.0 || apart) {
             add_layer_cell(job, tile, l);
         }
     }

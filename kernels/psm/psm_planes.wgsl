@@ -5,7 +5,7 @@
 const PLANE_SUM = 0u;
 // Mean velocity of the blocks (3).
 const PLANE_VELOCITY = 1u;
-// For the forces on the blocks: beta = B / sum, beta a and beta G (3). In fluid cells next to a block these are 1, rho - 1 and
+// For the forces on the blocks: beta = B / sum, beta a and beta G (3). In cells that contain only fluid these are 1, rho - 1 and
 // the velocity of the fluid.
 const PLANE_BETA = 4u;
 const PLANE_A = 5u;

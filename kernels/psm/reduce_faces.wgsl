@@ -1,4 +1,4 @@
-// Batchelor 1967, eq. 3.3.11 at a wall: the sum of the tractions in the layer of cells along a face, for each job.
+// Batchelor 1967, eq. 3.3.11 at a wall: the sum of the tractions in a layer of cells along a face, for each job.
 // needs workgroup_index, $face_sum
 
 @compute @workgroup_size(64)

@@ -1,12 +1,12 @@
-// Higham 1993, SIAM J. Sci. Comput. 14:783, sums of short sums: the load on each face, summed over its jobs in
-// order. An invocation adds one number of one face.
+// Higham 1993, SIAM J. Sci. Comput. 14:783, sums of short sums: the load on each layer of a face, summed over its jobs in
+// order. An invocation adds one number of one layer.
 // needs tables, workgroup_index
 
-// Number of jobs before each face, and of all.
+// Number of jobs before each layer, and of all.
 @group(0) @binding(0) var<storage, read> face_first: array<u32>;
 // FACE_LOAD numbers per job.
 @group(0) @binding(1) var<storage, read> face_partials: array<f32>;
-// FACE_LOAD numbers per face.
+// FACE_LOAD numbers per layer.
 @group(0) @binding(2) var<storage, read_write> face_loads: array<f32>;
 
 @compute @workgroup_size(64)

@@ -56,7 +56,7 @@ const TOUCHES = -2.0;
 const UNDECIDED = 4.0;
 // Numbers per block: force (3), moment (9), entrained fluid, displaced fluid, first moments of both (3 + 3).
 const WRENCH = 20u;
-// Numbers per face: traction (3), moment (3), height, feet (3), products of feet (6), cells with fluid, cells.
+// Numbers per layer of cells along a face: traction (3), moment (3), height, feet (3), products of feet (6), cells with fluid, cells.
 const FACE_LOAD = 18u;
 
 // Fractions of a part in a cell.

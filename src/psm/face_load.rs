@@ -20,8 +20,8 @@ pub struct PlaneFace {
     pub area: f64,
 }
 
-/// Load of a fluid on one plane face of a block, from the layer of cells along it; coarse for a face of
-/// few cells. A face without a fluid cell along it has no load.
+/// Load of a fluid on one plane face of a block, from two layers of cells along it, or from the first one if other solids are in
+/// them; coarse for a face of few cells. A face without a fluid cell along it has no load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct FaceLoad {
@@ -38,16 +38,17 @@ pub struct FaceLoad {
     pub force: DVec3,
     /// Moment of this force about the centroid of the block, N m.
     pub moment: DVec3,
-    /// Mean of the projections of the cell centres onto the face, m: with few cells it differs from
+    /// Mean of the projections of the cell centres in the first layer onto the face, m: with few cells it differs from
     /// the centroid of the wetted area.
     pub foot: DVec3,
     /// Second moments of these projections about their mean, m².
     pub spread: DMat3,
     /// Gradient of the pressure along the face, Pa/m, which shifts the force from `foot` to [`FaceLoad::acts_at`].
     pub slope: DVec3,
-    /// Mean height of the cell centres over the face, m.
+    /// Height over the face to which the pressure belongs, m: the mean of the cell centres in the first layer, or zero if
+    /// the load is extrapolated to the face.
     pub height: f64,
-    /// Number of these cells.
+    /// Number of cells with fluid in the first layer.
     pub cells: u32,
 }
 
@@ -78,7 +79,7 @@ impl FaceLoad {
         self.wetted * self.slope.dot(self.acts_at() - self.foot)
     }
 
-    /// Creates the load from the [`FACE_LOAD`] sums of the device, the centroid `block` (m) of the block, the polygon of the face
+    /// Creates the load from the [`FACE_LOAD`] sums of each layer, the centroid `block` (m) of the block, the polygon of the face
     /// in the domain, and the `seams` in it.
     pub(super) fn new(
         frame: &Frame,
@@ -87,32 +88,31 @@ impl FaceLoad {
         sums: &[f32],
     ) -> Self {
         let (centre, inside) = outside(corners, seams, face.centre);
-        let at = |n: usize| f64::from(sums[n]);
-        let vector = |n: usize| DVec3::new(at(n), at(n + 1), at(n + 2));
-        let [cells, counted] = [at(FACE_LOAD - 2), at(FACE_LOAD - 1)];
-        if cells == 0.0 {
+        let (first, second) = sums.split_at(FACE_LOAD);
+        let Some(near) = Layer::of(first) else {
             return Self {
                 face,
                 inside,
                 centre,
                 ..Self::default()
             };
-        }
-        let wetted = inside * (cells / counted);
+        };
+        let wetted = inside * near.wet;
         let cell = frame.units.cell;
+        let normal = face.normal;
         // The traction of a cell acts on an equal share of the wetted area.
-        let share = wetted / (cells * cell * cell);
-        let force = vector(0) * share * frame.units.force_from_lattice(1.0);
-        let moment = vector(3) * share * frame.units.torque_from_lattice(1.0);
-        let foot = vector(7) / cells * cell;
-        let [across, aside] = [vector(10), vector(13)].map(|sum| sum / cells * cell * cell);
+        let share = wetted / (cell * cell) * frame.units.force_from_lattice(1.0);
+        let moment = near.mean(3) * (wetted / (cell * cell)) * frame.units.torque_from_lattice(1.0);
+        let force = near.mean(0) * share;
+        let foot = near.mean(7) * cell;
+        let [across, aside] = [near.mean(10), near.mean(13)].map(|square| square * cell * cell);
         let squares = DMat3::from_cols(
             DVec3::new(across.x, aside.z, aside.y),
             DVec3::new(aside.z, across.y, aside.x),
             DVec3::new(aside.y, aside.x, across.z),
         );
         // All projections lie in the face: components across it are rounding errors.
-        let along = DMat3::IDENTITY - outer(face.normal, face.normal);
+        let along = DMat3::IDENTITY - outer(normal, normal);
         let mut load = Self {
             face,
             inside,
@@ -123,14 +123,21 @@ impl FaceLoad {
             foot: block + foot,
             spread: along * (squares - outer(foot, foot)) * along,
             slope: DVec3::ZERO,
-            height: at(6) / cells * cell,
-            cells: cells as u32,
+            height: near.height() * cell,
+            cells: near.cells as u32,
         };
         // Next to a seam only cells outside the seam count. Points closer together than a cell do not determine a slope.
         let couple = load.moment - (load.foot - block).cross(force);
         let own = DMat3::IDENTITY * (cell * cell / 12.0);
-        load.slope = (load.spread + own).inverse() * -face.normal.cross(couple) / wetted;
-        load.force -= load.shifted() * face.normal;
+        load.slope = (load.spread + own).inverse() * -normal.cross(couple) / wetted;
+        if let Some(far) = Layer::of(second).filter(|far| near.is_like(far)) {
+            let between = far.mean(7) * cell - foot;
+            let shifted = wetted * load.slope.dot(between) * normal;
+            let weight = near.height() / (far.height() - near.height());
+            load.force += weight * (force - (far.mean(0) * share + shifted));
+            load.height = 0.0;
+        }
+        load.force -= load.shifted() * normal;
         load.moment = couple + (load.acts_at() - block).cross(load.force);
         load
     }
@@ -142,6 +149,44 @@ impl FaceLoad {
         self.force += force;
         self.moment += (self.acts_at() - block).cross(force);
         self
+    }
+}
+
+/// Largest difference of the number of cells in the two layers, as a fraction of those in the first: beyond it the layers do not
+/// represent the same area.
+const UNLIKE: f64 = 0.25;
+
+/// Means over the cells with fluid in a layer along a face.
+struct Layer<'a> {
+    sums: &'a [f32],
+    /// Number of these cells.
+    cells: f64,
+    /// Their fraction of all cells of the layer.
+    wet: f64,
+}
+
+impl<'a> Layer<'a> {
+    /// `None` without fluid.
+    fn of(sums: &'a [f32]) -> Option<Self> {
+        let [cells, all] = [FACE_LOAD - 2, FACE_LOAD - 1].map(|n| f64::from(sums[n]));
+        let wet = cells / all;
+        (cells > 0.0).then_some(Self { sums, cells, wet })
+    }
+
+    fn mean(&self, first: usize) -> DVec3 {
+        DVec3::from_array([0, 1, 2].map(|n| f64::from(self.sums[first + n]))) / self.cells
+    }
+
+    /// Mean height of the centres of the cells over the face, cells.
+    fn height(&self) -> f64 {
+        f64::from(self.sums[6]) / self.cells
+    }
+
+    /// Whether the tractions of this layer and the `far` one determine those at the face. The extrapolation is exact for
+    /// pressures that are linear in the height and for quadratic velocities.
+    fn is_like(&self, far: &Self) -> bool {
+        let difference = (far.cells - self.cells).abs();
+        self.wet == 1.0 && far.wet == 1.0 && difference <= UNLIKE * self.cells
     }
 }
 

@@ -1,7 +1,7 @@
 //! The kernels of loads on faces, with their own buffers.
 
 use super::{
-    CellMapping, FACE_LOAD, FaceJob, Plan, Tile,
+    CellMapping, FACE_LAYERS, FACE_LOAD, FaceJob, Plan, Tile,
     kernels::{Growing, Kernels},
     program,
     tiles::{Outline, SKIN, imaged},
@@ -18,11 +18,11 @@ use std::collections::HashMap;
 const NAMES: [&str; 4] = ["jobs", "face_first", "face_partials", "face_loads"];
 /// Buffers of blocks that the first kernel reads.
 const SHARED: [&str; 5] = ["tiles", "parts", "faces", "motions", "solid_fractions"];
-/// Largest distance of the centre of a cell in the layer from the plane of a face, cells: half the diagonal of a
+/// Largest distance of the centre of a cell in the first layer from the plane of a face, cells: half the diagonal of a
 /// cell plus the thickness of the layer.
 const REACH: f64 = 1.9;
 
-/// Sums over the cells next to the faces of the blocks that request them.
+/// Sums over the layers of cells along the faces of the blocks that request them.
 #[derive(Debug)]
 pub(super) struct FaceSums {
     /// Blocks that request them, in the order of the device, ascending.
@@ -85,23 +85,26 @@ impl FaceSums {
             self.imaged.insert(block, imaged);
             for (part, outline) in (first_part[block]..).zip(&outlines[block]) {
                 for (face, plane) in (0..).zip(&outline.faces) {
-                    let sees = |tile: &u32| {
-                        let tile = &plan.tiles[*tile as usize];
-                        tile.part == part && reaches(tile, brick, outline.centre, plane)
-                    };
-                    let job = |tile| FaceJob { tile, face };
-                    self.jobs.extend(tiles.clone().filter(sees).map(job));
-                    self.face_first.push(self.jobs.len() as u32);
+                    for layer in 0..FACE_LAYERS as u32 {
+                        let reach = REACH + f64::from(layer);
+                        let sees = |tile: &u32| {
+                            let tile = &plan.tiles[*tile as usize];
+                            tile.part == part && reaches(tile, brick, outline.centre, plane, reach)
+                        };
+                        let job = |tile| FaceJob { tile, face, layer };
+                        self.jobs.extend(tiles.clone().filter(sees).map(job));
+                        self.face_first.push(self.jobs.len() as u32);
+                    }
                 }
             }
         }
         let words = |n: usize| 4 * n as u64;
-        let faces = self.face_first.len() - 1;
+        let layers = self.face_first.len() - 1;
         let bytes = [
             (size_of::<FaceJob>() * self.jobs.len()) as u64,
             words(self.face_first.len()),
             words(FACE_LOAD * self.jobs.len()),
-            words(FACE_LOAD * faces),
+            words(FACE_LOAD * layers),
         ];
         for (buffer, bytes) in self.buffers.iter_mut().zip(bytes) {
             buffer.hold(device, bytes)?;
@@ -155,7 +158,7 @@ impl FaceSums {
         }
     }
 
-    /// The sums, [`FACE_LOAD`] numbers per face.
+    /// The sums, [`FACE_LOAD`] numbers per layer of each face.
     pub fn loads(&self) -> &wgpu::Buffer {
         &self.buffers[3].buffer
     }
@@ -174,11 +177,17 @@ impl FaceSums {
     }
 }
 
-/// Whether a cell of a tile may be next to a face of the part about `centre` until the next search for tiles: the part may
-/// move by the skin before and after.
-fn reaches(tile: &Tile, brick: [f64; 3], centre: DVec3, (normal, distance): &(DVec3, f64)) -> bool {
+/// Whether a cell of a tile may be within `reach` of a face of the part about `centre` until the next search for tiles: the part
+/// may move by the skin before and after.
+fn reaches(
+    tile: &Tile,
+    brick: [f64; 3],
+    centre: DVec3,
+    (normal, distance): &(DVec3, f64),
+    reach: f64,
+) -> bool {
     let half = 0.5 * DVec3::from_array(brick);
     let middle = DVec3::from_array(tile.cell.map(f64::from)) + half - centre;
     let height = normal.dot(middle) - distance;
-    height.abs() <= normal.abs().dot(half) + REACH + 2.0 * SKIN
+    height.abs() <= normal.abs().dot(half) + reach + 2.0 * SKIN
 }

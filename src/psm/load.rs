@@ -1,7 +1,7 @@
 //! The sums of the device for blocks in a fluid, and the loads that follow from them.
 
 use super::{
-    FACE_LOAD, FaceLoad, Frame, PlaneFace, SolidCells, WRENCH, Window, corners,
+    FACE_LAYERS, FACE_LOAD, FaceLoad, Frame, PlaneFace, SolidCells, WRENCH, Window, corners,
     face_load::plane_faces, face_sums::FaceSums,
 };
 use crate::{
@@ -57,7 +57,7 @@ impl SolidCells {
         }
     }
 
-    /// The sums, [`FACE_LOAD`] f32 for each face of the blocks that request them: see [`SolidCells::face_loads`]. `None` unless
+    /// The sums, [`FACE_LOAD`] f32 for each of [`FACE_LAYERS`] layers of cells along each face of the blocks that request them: see [`SolidCells::face_loads`]. `None` unless
     /// requested; [`SolidCells::place`] replaces the buffer if it has to grow.
     pub fn face_sums(&self) -> Option<&wgpu::Buffer> {
         self.face_sums.as_ref().map(FaceSums::loads)
@@ -69,8 +69,9 @@ impl SolidCells {
     }
 
     /// The loads on the faces of all blocks at their last placement, from the numbers of
-    /// [`SolidCells::face_sums`]; none for blocks that did not request them and for spheres. Pressures are those in the cells
-    /// next to a face, without the contribution of a body force over the distance to it.
+    /// [`SolidCells::face_sums`]; none for blocks that did not request them and for spheres. Tractions are
+    /// extrapolated to a face from two layers of cells; if other solids are in one of the layers, they are those of the first layer,
+    /// without the contribution of a body force over the distance to the face.
     ///
     /// # Errors
     /// If there are too few numbers.
@@ -83,7 +84,7 @@ impl SolidCells {
             let message = format!("{} numbers, not {}", sums.len(), faces.count());
             return Err(Error::argument("face_sums", message));
         }
-        let mut sums = sums.chunks_exact(FACE_LOAD);
+        let mut sums = sums.chunks_exact(FACE_LAYERS * FACE_LOAD);
         for &block in &faces.requested {
             let (shape, pose) = (&self.blocks[block].shape, &self.poses[block]);
             let parts = shape.parts().iter().enumerate();

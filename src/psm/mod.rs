@@ -9,7 +9,7 @@
 //! 2. `combine_parts` adds the parts that share a cell,
 //! 3. the fluid kernel collides and stores the action of each cell on the solid in it,
 //! 4. `reduce_tiles` and `reduce_blocks` sum it to the load on each block, in a fixed order;
-//! 5. if loads on single faces are requested, `reduce_faces` and `sum_faces` sum the tractions of the fluid in the
+//! 5. if loads on single faces are requested, `reduce_faces` and `sum_faces` sum the tractions of the fluid in two layers of
 //!    cells along them. The force on cells inside the solid belongs to no face: full cells reflect the populations
 //!    that they contained when they were covered, and this cancels only over the whole block.
 //!
@@ -80,8 +80,8 @@ pub use program::{
 pub use solid_cells::{CellWork, SolidBlock, SolidCells};
 #[doc(hidden)]
 pub use tables::{
-    FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR, PLANES, Part,
-    SHARED_SUM, TOUCHES, Tile, WRENCH,
+    FACE_LAYERS, FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR,
+    PLANES, Part, SHARED_SUM, TOUCHES, Tile, WRENCH,
 };
 pub(crate) use tiles::imaged;
 

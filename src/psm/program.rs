@@ -149,10 +149,10 @@ pub fn reduce_blocks() -> Program {
     Program::new("reduce_blocks")
 }
 
-/// `reduce_faces`: [`CellMapping::groups`] workgroups. For each face it sums over the layer of cells along it, one cell thick, which begins where cells no longer
-/// intersect its plane. A cell is fluid unless a wall, a solid or another block fills part of it; it is excluded if another part of
+/// `reduce_faces`: [`CellMapping::groups`] workgroups. For each face it sums over [`super::FACE_LAYERS`] layers of cells along it, each one cell thick; the first
+/// begins where cells no longer intersect its plane. A cell is fluid unless a wall, a solid or another block fills part of it; it is excluded if another part of
 /// the same block lies over the face or fills part of the cell. The state is that at the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
-/// a face in sequence), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
+/// a layer of a face in sequence), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers per job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.
 pub fn reduce_faces(grid: &Grid, mapping: CellMapping) -> Program {
@@ -163,8 +163,8 @@ pub fn reduce_faces(grid: &Grid, mapping: CellMapping) -> Program {
     base("reduce_faces", grid).slot("face_sum", file)
 }
 
-/// `sum_faces`: one invocation per number of a face, 64 per workgroup. Binds `face_first` (jobs before each
-/// face, and all), `face_partials`, `face_loads`.
+/// `sum_faces`: one invocation per number of a layer of a face, 64 per workgroup. Binds `face_first` (jobs before each
+/// layer, and all), `face_partials`, `face_loads`.
 pub fn sum_faces() -> Program {
     Program::new("sum_faces")
 }

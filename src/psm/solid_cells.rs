@@ -1,13 +1,13 @@
 //! Blocks in a fluid on the device.
 
 use super::{
-    Forms, Frame, MAX_FACES, Motion, Part, Plan,
+    FACE_LAYERS, Forms, Frame, MAX_FACES, Motion, Part, Plan,
     face_sums::FaceSums,
     frame::MAX_DISTANCE,
     kernels::Kernels,
     near_cells::{outline, rows},
     program,
-    tiles::{Outline, Tiling},
+    tiles::{NEIGHBOURS, Outline, Tiling},
 };
 use crate::{
     Error, Result,
@@ -312,7 +312,12 @@ impl SolidCells {
         let radius = self.blocks[block].shape.radius();
         let at = (pose, radius, self.frame.units.cell);
         let first = self.first_part[block];
-        self.plan.find(&self.tiling, block, at, outlines, first);
+        let margin = match self.blocks[block].faces {
+            true => FACE_LAYERS as f64,
+            false => NEIGHBOURS,
+        };
+        let around = (outlines, margin);
+        self.plan.find(&self.tiling, block, at, around, first);
     }
 
     fn make_room(

@@ -30,7 +30,10 @@ pub const PLANES: usize = crate::lattice::PSM_PLANES as usize;
 /// Number of sums per block.
 pub const WRENCH: usize = 20;
 
-/// Number of sums per requested face, over the layer of cells along it: traction
+/// Layers of cells along a face over which its load is summed.
+pub const FACE_LAYERS: usize = 2;
+
+/// Number of sums per layer of cells along a requested face: traction
 /// (3), its moment about the block's centroid (3), height of the cells' centres over the face, their feet on the face
 /// from that centroid (3) and the products of these (xx, yy, zz, yz, zx, xy), number of cells with fluid, number of
 /// cells.
@@ -126,7 +129,7 @@ pub struct Motion {
     pub pad5: u32,
 }
 
-/// A job of `reduce_faces`: a face and a tile.
+/// A job of `reduce_faces`: a layer of cells along a face, in a tile.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct FaceJob {
@@ -134,4 +137,6 @@ pub struct FaceJob {
     pub tile: u32,
     /// Number of the face in the tile's part.
     pub face: u32,
+    /// Layer of cells along the face, below [`FACE_LAYERS`].
+    pub layer: u32,
 }

@@ -256,7 +256,7 @@ impl Tiling {
 /// beyond the block: a larger value costs empty tiles, a smaller one searches.
 pub const SKIN: f64 = 1.0;
 /// A block changes the relaxation of adjacent cells: one cell beyond the block.
-const NEIGHBOURS: f64 = 1.0;
+pub const NEIGHBOURS: f64 = 1.0;
 
 /// Bits of a segment that number its first tile: `SEGMENT_SHIFT` of the kernel. Those above count the tiles after it.
 const SEGMENT_SHIFT: u32 = 28;
@@ -328,19 +328,19 @@ impl Plan {
         self.found[block] = Found::default();
     }
 
-    /// Finds the tiles of a block anew if it has gone far enough for that to be due soon.
+    /// Finds the tiles of a block and of `margin` cells around it anew if it has gone far enough for that to be due soon.
     pub fn find(
         &mut self,
         tiling: &Tiling,
         block: usize,
         (pose, radius, cell): (&Pose, f64, f64),
-        outlines: &[Outline],
+        (outlines, margin): (&[Outline], f64),
         first_part: u32,
     ) {
         if self.stray(block, pose, radius, cell) < 0.5 * SKIN {
             return;
         }
-        let mut tiles = tiling.tiles_of_block(outlines, NEIGHBOURS + SKIN);
+        let mut tiles = tiling.tiles_of_block(outlines, margin + SKIN);
         for (_, tile) in &mut tiles {
             tile.part += first_part;
             tile.block = block as u32;

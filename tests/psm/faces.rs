@@ -11,7 +11,8 @@ use kit::{POISON, Random, Workbench, assert_relative};
 use riprap::{
     geometry::{HalfSpace, Polyhedron},
     psm::{
-        CellMapping, FACE_LOAD, FaceJob, NEAR, PLANES, Tile, constants, reduce_faces, sum_faces,
+        CellMapping, FACE_LAYERS, FACE_LOAD, FaceJob, NEAR, PLANES, Tile, constants, reduce_faces,
+        sum_faces,
     },
 };
 
@@ -47,11 +48,17 @@ impl Case {
         let mut saturation = vec![f32::from_bits(POISON); scalars];
         for (number, tile) in tiling.tiles.iter().enumerate() {
             for local in 0..tiling.workgroup() {
-                if shares[number * tiling.workgroup() + local] >= 0.0 {
+                let share = shares[number * tiling.workgroup() + local];
+                if share > 0.0 {
                     continue;
                 }
                 let any = noise.unit();
-                let mark = if exact || any > 0.2 { NEAR } else { any as f32 };
+                let empty = if share < 0.0 { NEAR } else { 0.0 };
+                let mark = if exact || any > 0.2 {
+                    empty
+                } else {
+                    any as f32
+                };
                 saturation[tiling.scalar(tile, 0, local)] = mark;
                 let fluid = exact || any > 0.4;
                 saturation[tiling.scalar(tile, 4, local)] = if fluid { 1.0 } else { 0.0 };
@@ -72,24 +79,28 @@ impl Case {
         }
     }
 
-    /// All requested faces: part, index of the face.
-    fn faces(&self) -> impl Iterator<Item = (u32, u32)> {
+    /// The layers of all requested faces: part, index of the face, layer.
+    fn layers(&self) -> impl Iterator<Item = (u32, u32, u32)> {
         let faces = |part: &u32| self.tiling.parts[*part as usize].faces;
         let each = self.asked.iter().map(move |part| (*part, faces(part)));
-        each.flat_map(|(part, faces)| (0..faces).map(move |face| (part, face)))
+        each.flat_map(|(part, faces)| {
+            let face = move |face| (0..FACE_LAYERS as u32).map(move |layer| (part, face, layer));
+            (0..faces).flat_map(face)
+        })
     }
 
-    /// Loads on each face, and the sums of the absolute values of their terms, 0 for exact ones.
+    /// Loads on each layer, and the sums of the absolute values of their terms, 0 for exact ones.
     fn twin(&self) -> Vec<[(f64, f64); FACE_LOAD]> {
-        let one = |(part, face)| {
+        let one = |(part, face, layer)| {
             let mut all = [(0.0, 0.0); FACE_LOAD];
             let tiles = self.tiling.tiles.iter().enumerate();
             for (number, tile) in tiles.filter(|(_, tile)| tile.part == part) {
                 for local in 0..self.tiling.workgroup() {
-                    if self.shares[number * self.tiling.workgroup() + local] >= 0.0 {
+                    let share = self.shares[number * self.tiling.workgroup() + local];
+                    if share > 0.0 || (layer == 0 && share == 0.0) {
                         continue;
                     }
-                    let values = self.cell(tile, local, face as usize);
+                    let values = self.cell(tile, local, (face as usize, f64::from(layer)));
                     for (sum, (value, size)) in all.iter_mut().zip(values.unwrap_or_default()) {
                         *sum = (sum.0 + value, sum.1 + size);
                     }
@@ -97,11 +108,16 @@ impl Case {
             }
             all
         };
-        self.faces().map(one).collect()
+        self.layers().map(one).collect()
     }
 
-    /// Terms of a cell and their absolute values, if it is next to the face.
-    fn cell(&self, tile: &Tile, local: usize, face: usize) -> Option<[(f64, f64); FACE_LOAD]> {
+    /// Terms of a cell and their absolute values, if it is in the layer along the face.
+    fn cell(
+        &self,
+        tile: &Tile,
+        local: usize,
+        (face, layer): (usize, f64),
+    ) -> Option<[(f64, f64); FACE_LOAD]> {
         let placed = &self.tiling.placed[tile.part as usize];
         let point = centre(self.tiling.cell(tile, local)?);
         let r = point - placed.centre;
@@ -110,7 +126,7 @@ impl Case {
         let height = own.height(r);
         let foot = point - height * normal;
         // The distance from the centre of a cell to the farthest corner along the normal.
-        let low = 0.5 * normal.abs().element_sum() - 1e-5;
+        let low = 0.5 * normal.abs().element_sum() - 1e-5 + layer;
         let others = placed.faces.iter().enumerate();
         let mut others = others.filter(|(n, _)| *n != face).map(|(_, other)| other);
         // Feet on an edge belong to both faces.
@@ -140,7 +156,7 @@ impl Case {
                 .all(|f| f.height(point - other.centre) < reach(f))
         });
         let at = |plane| f64::from(self.saturation[self.tiling.scalar(tile, plane, local)]);
-        if at(0) != f64::from(NEAR) || at(4) == 0.0 {
+        if at(0) > 0.0 || at(4) == 0.0 {
             if cut {
                 return None;
             }
@@ -168,20 +184,20 @@ impl Case {
         Some(all)
     }
 
-    /// The loads on each face, computed by the kernels.
+    /// The loads on each layer, computed by the kernels.
     fn run(&self, walk: CellMapping, width: Option<u32>) -> Vec<f32> {
         let bench = Workbench::new(width);
         let (mut jobs, mut face_first) = (Vec::new(), vec![0]);
-        for (part, face) in self.faces() {
+        for (part, face, layer) in self.layers() {
             let numbers = (0..).zip(&self.tiling.tiles);
             let own = numbers.filter(|(_, tile)| tile.part == part);
-            jobs.extend(own.map(|(tile, _)| FaceJob { tile, face }));
+            jobs.extend(own.map(|(tile, _)| FaceJob { tile, face, layer }));
             face_first.push(jobs.len() as u32);
         }
         let motions: Vec<_> = self.moving.iter().map(Moving::on_device).collect();
-        let faces = face_first.len() - 1;
+        let layers = face_first.len() - 1;
         let partials = bench.poisoned(FACE_LOAD * (jobs.len() + 1));
-        let loads = bench.poisoned(FACE_LOAD * (faces + 8));
+        let loads = bench.poisoned(FACE_LOAD * (layers + 8));
         let buffers = [
             ("jobs", &bench.buffer(&jobs)),
             ("tiles", &bench.buffer(&self.tiling.tiles)),
@@ -200,14 +216,14 @@ impl Case {
         // One workgroup more than the jobs require.
         let groups = walk.groups(jobs.len() as u32) as usize + 1;
         bench.run(&program, "reduce_faces", &numbers, &buffers, 64 * groups);
-        let invocations = FACE_LOAD * (faces + 8);
+        let invocations = FACE_LOAD * (layers + 8);
         bench.run(&sum_faces(), "sum_faces", &[], &buffers, invocations);
         let poison = |numbers: &[f32]| numbers.iter().all(|x| x.to_bits() == POISON);
         assert!(poison(
             &bench.read::<f32>(&partials)[FACE_LOAD * jobs.len()..]
         ));
         let mut found: Vec<f32> = bench.read(&loads);
-        assert!(poison(&found.split_off(FACE_LOAD * faces)));
+        assert!(poison(&found.split_off(FACE_LOAD * layers)));
         found
     }
 }
@@ -233,11 +249,11 @@ fn check(case: &Case, width: Option<u32>) {
     for walk in [CellMapping::Serial, CellMapping::Parallel] {
         let found = case.run(walk, width);
         assert_eq!(found.len(), FACE_LOAD * expected.len());
-        for (face, (found, expected)) in found.chunks(FACE_LOAD).zip(&expected).enumerate() {
+        for (row, (found, expected)) in found.chunks(FACE_LOAD).zip(&expected).enumerate() {
             for (k, (found, (value, size))) in found.iter().zip(expected).enumerate() {
                 // The error of f32 in each cell; heights have the rounding of positions some 10 cells away.
                 let error = (f64::from(*found) - value).abs();
-                assert!(error <= 3e-6 * size, "face {face}, {k}: {found} {value}");
+                assert!(error <= 3e-6 * size, "layer {row}, {k}: {found} {value}");
             }
         }
     }
@@ -250,7 +266,7 @@ fn check(case: &Case, width: Option<u32>) {
 }
 
 #[test]
-fn loads_on_faces_are_sums_over_the_cells_beside_them() {
+fn loads_on_faces_are_sums_over_layers_of_cells() {
     let cases = [
         (1, [4, 4, 4], None),
         (2, [5, 3, 7], Some(3)),
@@ -264,9 +280,9 @@ fn loads_on_faces_are_sums_over_the_cells_beside_them() {
     }
 }
 
-/// One cell of fluid per unit of area: exact for faces along the grid, also within rounding of it.
+/// One cell of fluid per unit of area in each layer: exact for faces along the grid, also within rounding of it.
 #[test]
-fn the_layer_beside_a_face_has_its_area() {
+fn layers_along_a_face_have_its_area() {
     let mut noise = Random(40);
     let shape = cuboid(8.0, 6.0, 5.0);
     for (at, rotation) in [
@@ -282,7 +298,9 @@ fn the_layer_beside_a_face_has_its_area() {
         let case = Case::new(tiling, Some(shares), &mut noise);
         check(&case, None);
         let found = case.run(CellMapping::Serial, None);
-        for (face, found) in shape.faces().iter().zip(found.chunks(FACE_LOAD)) {
+        let rows = found.chunks(FACE_LOAD).enumerate();
+        for (row, found) in rows {
+            let (face, layer) = (&shape.faces()[row / FACE_LAYERS], row % FACE_LAYERS);
             let across = [8.0, 6.0, 5.0];
             let along = (0..3).find(|a| face.normal[*a].abs() > 0.5).unwrap();
             let area = 240.0 / across[along];
@@ -299,7 +317,7 @@ fn the_layer_beside_a_face_has_its_area() {
             let pressure = -force.dot(normal) / cells;
             assert_relative(pressure, 0.01, 1e-5);
             let half = 0.5 * normal.abs().element_sum();
-            let mean = height / cells - half;
+            let mean = height / cells - half - layer as f64;
             assert!((-1e-5..1.0).contains(&mean), "{mean}");
         }
     }

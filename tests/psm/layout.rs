@@ -54,6 +54,7 @@ fn structures() {
     let job = [
         ("tile", offset_of!(FaceJob, tile)),
         ("face", offset_of!(FaceJob, face)),
+        ("layer", offset_of!(FaceJob, layer)),
     ];
     let linked = reduce_faces(&grid([8; 3], 1, [4; 3]), CellMapping::Parallel)
         .link()

@@ -71,7 +71,14 @@ fn deserialize(text: &str, dir: &Path) -> Result<Scene, Refusal> {
     series_files::insert(document.get_mut(), dir)?;
     let mut document = Spanned::new(document.span(), DeValue::Table(document.into_inner()));
     tagged::tag(&mut document)?;
-    Scene::deserialize(ValueDeserializer::from(document)).map_err(refused)
+    Scene::deserialize(ValueDeserializer::from(document)).map_err(|error| {
+        let no_word = error.message() == "wanted string or table";
+        let refusal = refused(error);
+        match no_word {
+            true => refusal.with_words(text, dir),
+            false => refusal,
+        }
+    })
 }
 
 impl Refusal {
@@ -82,6 +89,20 @@ impl Refusal {
             inner => format!("{key}.{inner}"),
         };
         Self { key, ..self }
+    }
+
+    /// Lists the words that are possible where `text` has a value of another type: those that an empty word there is refused for.
+    fn with_words(self, text: &str, dir: &Path) -> Self {
+        let mut empty = text.to_owned();
+        if let Some(span) = self.span.clone() {
+            empty.replace_range(span, "\"\"");
+        }
+        let words = match deserialize(&empty, dir) {
+            Err(Self { message, .. }) => message.replace("there is no word `` here; ", ""),
+            Ok(_) => String::new(),
+        };
+        let message = format!("is not a word in quotes; {words}");
+        Self { message, ..self }
     }
 
     fn of(mut error: toml::de::Error, text: &str) -> Self {

@@ -73,9 +73,6 @@ impl Adapter {
 }
 
 /// Prints the adapters.
-///
-/// # Errors
-/// If there is none; the message says what to install.
 pub fn run(args: &Args) -> Result<()> {
     let found = gpu::adapters();
     if found.is_empty() {

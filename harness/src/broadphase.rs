@@ -15,9 +15,6 @@ use std::path::Path;
 
 /// The adapter for the broadphase of `scene`: the one called `name`, or the best one. `None` if the broadphase runs on
 /// the host.
-///
-/// # Errors
-/// If the scene requires an adapter and there is none.
 pub fn adapter(
     scene: &Scene,
     blocks: &BlockSetup,

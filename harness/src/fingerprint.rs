@@ -51,9 +51,6 @@ struct Earlier {
 }
 
 /// Runs the scenes, prints their checksums, and returns whether they equal those of `--compare`.
-///
-/// # Errors
-/// If there are no scenes, one cannot be run to its end, or the record cannot be read.
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<bool> {
     let earlier = args.compare.as_deref().map(read).transpose()?;
     let machine = Machine::of(&gpu::pick(args.adapter.as_deref())?.get_info());

@@ -18,9 +18,6 @@ pub struct Args {
 }
 
 /// Rewrites the file. Returns `false` only if `--check` finds old keys.
-///
-/// # Errors
-/// If the file cannot be read or written, is not TOML, or has both an old key and its new name.
 pub fn run(args: &Args) -> anyhow::Result<bool> {
     let path = args.scene.display().to_string();
     let text = std::fs::read_to_string(&args.scene)

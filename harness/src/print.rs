@@ -3,9 +3,6 @@
 use std::io::{ErrorKind, Write};
 
 /// Prints `text`; a reader that closes the pipe early, such as `head`, is no error.
-///
-/// # Errors
-/// If standard output cannot be written.
 pub fn print(text: &str) -> anyhow::Result<()> {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -15,9 +12,6 @@ pub fn print(text: &str) -> anyhow::Result<()> {
 }
 
 /// Prints `value` as JSON.
-///
-/// # Errors
-/// If standard output cannot be written.
 pub fn print_json(value: &impl serde::Serialize) -> anyhow::Result<()> {
     print(&(serde_json::to_string_pretty(value)? + "\n"))
 }

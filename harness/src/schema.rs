@@ -8,9 +8,6 @@ use anyhow::Result;
 pub struct Args {}
 
 /// Prints the schema.
-///
-/// # Errors
-/// If standard output cannot be written.
 pub fn run(_: &Args) -> Result<()> {
     print::print_json(&riprap::scene::Scene::schema())
 }

@@ -112,9 +112,6 @@ impl Clock {
     }
 
     /// Waits until the device has done what was submitted.
-    ///
-    /// # Errors
-    /// If the device is lost or does not answer.
     pub fn wait(&self) -> Result<(), Error> {
         let waited = self.device.poll(wgpu::PollType::Wait {
             submission_index: None,
@@ -124,9 +121,6 @@ impl Clock {
     }
 
     /// The mean time of one repetition, from `turns` repetitions in one submission.
-    ///
-    /// # Errors
-    /// If the device is lost or does not answer.
     pub fn run(&mut self, subject: &mut Subject<'_>, turns: u32) -> Result<Turn, Error> {
         let watch = Stopwatch::start();
         let mut encoder = self.device.create_command_encoder(&Default::default());
@@ -157,9 +151,6 @@ impl Clock {
     }
 
     /// The time that `work` takes; [`Clock::basis`] converts it for speeds.
-    ///
-    /// # Errors
-    /// Returns the errors of `work`.
     pub fn time<E>(&self, work: impl FnOnce() -> Result<(), E>) -> Result<Spent, E> {
         let watch = Stopwatch::start();
         work()?;

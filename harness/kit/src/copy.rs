@@ -59,9 +59,6 @@ struct Piece {
 
 impl Copy {
     /// At least `bytes` for source and target each.
-    ///
-    /// # Errors
-    /// If the device rejects the kernels.
     pub fn new(device: &wgpu::Device, bytes: u64) -> Result<Self, Error> {
         let limits = device.limits();
         let largest = limits
@@ -131,9 +128,6 @@ impl Copy {
 
 /// Bytes that the device reads and writes per second when copying by the fastest method: over `bytes`, or as many as a
 /// quarter of a second allows.
-///
-/// # Errors
-/// If the device fails or is lost.
 pub fn copy_bandwidth(
     device: &wgpu::Device,
     queue: &wgpu::Queue,

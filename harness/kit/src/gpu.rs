@@ -58,9 +58,6 @@ pub fn describe(info: &wgpu::AdapterInfo) -> String {
 }
 
 /// The adapter whose description contains `name`, or the first one.
-///
-/// # Errors
-/// If there is none; the message says what to install, or lists the adapters.
 pub fn pick(name: Option<&str>) -> Result<wgpu::Adapter> {
     let all = adapters();
     if all.is_empty() {
@@ -81,17 +78,11 @@ pub fn pick(name: Option<&str>) -> Result<wgpu::Adapter> {
 }
 
 /// The adapter whose description contains the environment variable `RIPRAP_ADAPTER`, or the first one; used by tests.
-///
-/// # Errors
-/// Returns the errors of [`pick`].
 pub fn selected() -> Result<wgpu::Adapter> {
     pick(std::env::var("RIPRAP_ADAPTER").ok().as_deref())
 }
 
 /// A device with the given features and limits.
-///
-/// # Errors
-/// Returns the error of the driver.
 pub fn open(
     adapter: &wgpu::Adapter,
     features: wgpu::Features,
@@ -114,10 +105,7 @@ const AWAKE: Duration = Duration::from_millis(2);
 /// Runs `future` to its end, polling the device for it.
 ///
 /// A GPU is polled often, so that the host can process finished work while the GPU continues; a CPU adapter shares the cores
-/// of the host, which waits until all is done.
-///
-/// # Errors
-/// [`Error::Timeout`] if the device is silent for `patience`: drivers may hang on infinite waits.
+/// of the host, which waits until all is done. A device silent for `patience` is an error: drivers may hang on infinite waits.
 pub fn drive<T>(
     device: &wgpu::Device,
     patience: Duration,
@@ -129,9 +117,6 @@ pub fn drive<T>(
 }
 
 /// The same, either by polling the device or by waiting for all submitted work.
-///
-/// # Errors
-/// Returns the errors of [`drive`].
 pub fn drive_by<T>(
     device: &wgpu::Device,
     looks: bool,

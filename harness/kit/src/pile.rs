@@ -41,9 +41,6 @@ pub struct Pile {
 
 impl Pile {
     /// About `count` free blocks as cut, not yet settled.
-    ///
-    /// # Errors
-    /// If the rock mass cannot be cut.
     pub fn fresh(count: usize) -> Result<Self> {
         let setup = jointed(count)?;
         let blocks = Blocks::new(setup.clone())?;
@@ -56,9 +53,6 @@ impl Pile {
     }
 
     /// About `count` free blocks at rest.
-    ///
-    /// # Errors
-    /// If a step fails.
     pub fn settled(count: usize) -> Result<Self> {
         let mut pile = Self::fresh(count)?;
         while pile.blocks.steps() < MOST_STEPS {
@@ -74,18 +68,12 @@ impl Pile {
     }
 
     /// Takes one step, after an update of the pairs if necessary.
-    ///
-    /// # Errors
-    /// If the step fails.
     pub fn step(&mut self) -> Result<()> {
         self.find_pairs()?;
         self.blocks.step()
     }
 
     /// Updates the pairs if necessary; returns whether it was.
-    ///
-    /// # Errors
-    /// None that [`Pile::settled`] did not have.
     pub fn find_pairs(&mut self) -> Result<bool> {
         let wanted = self.blocks.needs_pairs();
         if wanted {
@@ -96,9 +84,6 @@ impl Pile {
     }
 
     /// The same blocks at their present poses, without velocities, pairs and contacts.
-    ///
-    /// # Errors
-    /// None that [`Pile::settled`] did not have.
     pub fn apart(&self) -> Result<Blocks> {
         let mut setup = self.setup.clone();
         let poses = self.blocks.poses();

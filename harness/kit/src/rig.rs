@@ -53,9 +53,6 @@ impl Rig {
     }
 
     /// A simulation of a scene, with [these kernels](kernels) unless the scene names others.
-    ///
-    /// # Errors
-    /// If the scene is invalid or does not fit the device.
     pub fn simulation(&self, scene: &Scene) -> Result<Simulation> {
         let scene = match scene.run.kernels {
             Kernels::Auto => for_kernels(scene, kernels()),

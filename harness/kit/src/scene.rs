@@ -51,9 +51,6 @@ pub fn for_kernels(scene: &Scene, kernels: Kernels) -> Scene {
 }
 
 /// Parses a scene, as if from `scene.toml` in the working folder.
-///
-/// # Errors
-/// If the scene is invalid.
 pub fn read(text: &str) -> Result<Scene> {
     Scene::from_toml(text, Path::new(""), "scene.toml")
 }

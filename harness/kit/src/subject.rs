@@ -77,10 +77,8 @@ pub struct StreamOnly {
 }
 
 impl StreamOnly {
-    /// Takes a periodic lattice without solids, after an even number of steps, with its present state.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] if it has walls or solids, whose reflections are part of the collision.
+    /// Takes a periodic lattice without walls and solids, whose reflections are part of the collision, after an even number of
+    /// steps, with its present state.
     pub fn new(device: &wgpu::Device, lattice: Lattice) -> Result<Self, Error> {
         let setup = lattice.setup();
         if !setup.is_all_fluid() {
@@ -144,9 +142,6 @@ pub fn program() -> Program {
 
 impl Arithmetic {
     /// The kernel and its factors.
-    ///
-    /// # Errors
-    /// If the device rejects it.
     pub fn new(device: &wgpu::Device) -> Result<Self, Error> {
         let groups = match gpu::is_software(&device.adapter_info()) {
             true => CPU_GROUPS,
@@ -192,9 +187,6 @@ impl Arithmetic {
 
 /// A flow that moves in every cell: waves along each axis and noise. At rest, or where symmetry keeps a component at 0,
 /// denormal numbers would slow a CPU down.
-///
-/// # Errors
-/// If the setup has no grid.
 pub fn sheared_noise(setup: &Setup) -> Result<State, Error> {
     let grid = Grid::new(setup)?;
     let mut state = State::rest(grid.cell_count());

@@ -26,9 +26,6 @@ pub struct Tank {
 
 impl Tank {
     /// A cube of water, `edge` particles long, open above.
-    ///
-    /// # Errors
-    /// If it does not fit the device.
     pub fn fill(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -43,9 +40,6 @@ impl Tank {
     }
 
     /// The same tank with a column of half its width after a dam break; `pairs` are not counted yet.
-    ///
-    /// # Errors
-    /// If it does not fit the device.
     pub fn dam(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -85,9 +79,6 @@ impl Tank {
     }
 
     /// Counts the pairs at the present positions of the particles.
-    ///
-    /// # Errors
-    /// If the device is lost.
     pub async fn count(&mut self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<()> {
         let water = self.particles.water(device, queue).await?;
         let setup = self.particles.setup();
@@ -117,9 +108,6 @@ impl Tank {
     }
 
     /// Takes about `steps` steps; returns their number and how many of them sorted.
-    ///
-    /// # Errors
-    /// If the device is lost.
     pub async fn advance(
         &mut self,
         device: &wgpu::Device,

@@ -23,10 +23,7 @@ pub struct SkippedCase {
     case: &'static str,
 }
 
-/// Measures the device, and prints tables as it goes.
-///
-/// # Errors
-/// If the device is lost or silent. A validation case that fails is a result, not an error.
+/// Measures the device, and prints tables as it goes. A validation case that fails is a result, not an error.
 pub fn measure(bench: &Bench<'_>, budget: Option<u64>) -> anyhow::Result<Vec<Measured>> {
     let begin = Instant::now();
     let (extent, patience) = match bench.machine.software {

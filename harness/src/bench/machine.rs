@@ -106,9 +106,6 @@ fn utc(seconds: u64) -> String {
 
 impl Machine {
     /// Results of this machine, as a JSON array.
-    ///
-    /// # Errors
-    /// If a result is not a JSON object.
     pub fn json<T: Serialize>(
         &self,
         rows: impl IntoIterator<Item = T>,

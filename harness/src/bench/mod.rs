@@ -110,9 +110,6 @@ enum Measured {
 }
 
 /// Measures, prints a table as it goes, and writes the file.
-///
-/// # Errors
-/// If there is no adapter and more than rock is measured, the device fails, or the file cannot be written.
 pub fn run(args: Args) -> anyhow::Result<()> {
     let device = match gpu::pick(args.adapter.as_deref()) {
         Err(error) if args.only == Some(Part::Rock) && args.adapter.is_none() => {

@@ -112,9 +112,6 @@ impl fmt::Display for Row {
 }
 
 /// Measures all rows and prints them as they are done.
-///
-/// # Errors
-/// If the device is lost or silent.
 pub fn measure(bench: &Bench<'_>, budget: Option<u64>, extent: Extent) -> Result<Vec<Row>> {
     let copied = copy_bandwidth(bench.device, bench.queue, COPIED)?;
     println!(

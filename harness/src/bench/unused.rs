@@ -30,9 +30,6 @@ struct Pair {
 }
 
 /// Measures, and prints a table as it goes.
-///
-/// # Errors
-/// If the device fails.
 pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let (n, rounds) = match (bench.machine.software, bench.quick) {
         (true, true) => (32, 5),

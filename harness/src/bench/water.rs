@@ -69,9 +69,6 @@ pub struct Row {
 }
 
 /// Measures tanks of growing size and prints a table as it goes.
-///
-/// # Errors
-/// If the device fails.
 pub fn measure(bench: &Bench<'_>) -> anyhow::Result<Vec<Row>> {
     let Bench {
         device,

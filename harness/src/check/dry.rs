@@ -34,9 +34,6 @@ pub struct RockReport {
 }
 
 /// Runs a few steps of a scene of blocks alone and reports on them.
-///
-/// # Errors
-/// Returns the errors of the steps.
 pub fn report(run: &mut SceneRun) -> Result<RockReport> {
     let time_step = run.time_step();
     let steps = run.scene().run.count(time_step);

@@ -5,9 +5,6 @@ use riprap::{Error, gpu::link::Linked, psm::SolidCells, simulation::Simulation, 
 use std::{fmt::Write, path::Path};
 
 /// Writes a file for each program of the fluid of a scene: those of a step, and the single-cell kernels that are in use.
-///
-/// # Errors
-/// If the scene has no fluid, or the folder or a file cannot be written.
 pub fn write(folder: &Path, simulation: &Simulation) -> Result<()> {
     if let Some(lattice) = simulation.lattice() {
         let single = lattice.single_cell_kernels();

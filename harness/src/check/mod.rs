@@ -39,9 +39,6 @@ pub struct Args {
 }
 
 /// Prints the report.
-///
-/// # Errors
-/// If the scene is invalid or does not fit the adapter.
 pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
     let name = args.adapter.as_deref();

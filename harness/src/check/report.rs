@@ -150,9 +150,6 @@ pub struct Time {
 
 impl Report {
     /// The report on a scene after the steps of the trial.
-    ///
-    /// # Errors
-    /// If a formula is not finite somewhere.
     pub fn of(
         simulation: &Simulation,
         (lattice, units): (&Lattice, &Units),

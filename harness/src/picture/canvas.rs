@@ -259,9 +259,6 @@ fn pixel([x, y]: [f64; 2]) -> (i32, i32) {
 }
 
 /// Writes red, green and blue of `size` pixels, row by row, replacing an older file only when done.
-///
-/// # Errors
-/// If the file cannot be written.
 pub fn write_png(path: &Path, size: [u32; 2], rgb: &[u8]) -> Result<()> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, size[0], size[1]);

@@ -116,17 +116,11 @@ impl Chart {
     }
 
     /// `tracks` of `table` over its column `time` (s), stacked, 1400 pixels wide.
-    ///
-    /// # Errors
-    /// If the table lacks a column.
     pub fn history(title: &str, table: &Table, tracks: &[Track]) -> Result<Self> {
         Self::tracks(title, table, ("time", Measure::linear("time", "s")), tracks)
     }
 
     /// The same over another column, which measures `x`.
-    ///
-    /// # Errors
-    /// If the table lacks a column.
     pub fn tracks(
         title: &str,
         table: &Table,
@@ -166,17 +160,11 @@ impl Chart {
     }
 
     /// Draws the chart into a PNG file.
-    ///
-    /// # Errors
-    /// If it has no panels, or the file cannot be written.
     pub fn draw(&self, path: &Path) -> Result<()> {
         self.paint(Canvas::new)?.save(path)
     }
 
     /// The chart as SVG.
-    ///
-    /// # Errors
-    /// If it has no panels.
     pub fn svg(&self) -> Result<String> {
         let mut text = String::new();
         drop(self.paint(|width, height| Canvas::svg(&mut text, width, height))?);

@@ -62,9 +62,6 @@ pub struct Square {
 
 impl ColourGrid {
     /// Draws the grids into a PNG file.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
     pub fn draw(&self, path: &Path) -> Result<()> {
         // Row names, and the vertical name of the axis next to them.
         let side = self.widest_row()? + TEXT + 3.0 * 6.0;

@@ -122,10 +122,7 @@ fn jobs() -> Vec<Job> {
 }
 
 /// Makes the records that the current commit lacks, and renders the tables. Returns whether all that ran met their limits.
-///
-/// # Errors
-/// If the working tree has uncommitted changes, no name matches, there is no adapter, or a file cannot be written. A record that
-/// breaks off is an entry of the index; the former record stays.
+/// A record that breaks off is an entry of the index; the former record stays.
 pub fn run(args: &Args, stop: &AtomicBool) -> anyhow::Result<bool> {
     let good = if args.render { true } else { make(args, stop)? };
     let machines = Index::all(&args.folder)?;

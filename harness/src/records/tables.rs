@@ -24,9 +24,6 @@ const END: &str = "<!-- end of records -->";
 const MISSED: &str = ", **missed**";
 
 /// Returns `text` with its tables rendered from the records of `machines`.
-///
-/// # Errors
-/// If a mark has no end or names no known table, or a record cannot be read.
 pub fn render(text: &str, machines: &[Index]) -> anyhow::Result<String> {
     let mut rendered = String::new();
     let mut rest = text;

@@ -197,10 +197,6 @@ const GAP: f64 = 12.0;
 impl Renderer {
     /// Drawings as the frames of one picture, `columns` in a row, each of the renderer's size with its time above; title,
     /// colour bars and scale bar are those of the first.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Self::render`], and an error if there is no drawing or no column, or if the drawings' colours
-    /// have different meanings.
     pub fn strip(&self, drawings: &[Drawing<'_>], columns: usize) -> Result<Picture> {
         let Some(first) = drawings.first().filter(|_| columns > 0) else {
             bail!("a strip of no frames or no columns; give one at least");

@@ -66,9 +66,6 @@ impl Axes {
 
 impl Camera {
     /// Its axes.
-    ///
-    /// # Errors
-    /// If the camera has no direction, or looks along its up direction, or has an impossible angle.
     pub(super) fn axes(&self) -> Result<Axes> {
         check_angle(self.field_of_view)?;
         let axes = Axes::new(self.to - self.from, self.up);
@@ -98,9 +95,6 @@ impl Look {
     /// The nearest camera whose view of `aspect` (width over height) holds all balls (centre and
     /// radius, m) with a `margin` (part of the view) around them; the ball of one metre around
     /// the origin if there are none.
-    ///
-    /// # Errors
-    /// If the look has no direction, is along its up direction, or has an impossible angle.
     pub(super) fn framing(
         &self,
         balls: impl Iterator<Item = (DVec3, f64)>,

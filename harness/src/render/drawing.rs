@@ -141,9 +141,6 @@ pub struct Colours {
 impl Colours {
     /// The colour bar of values in the part `name` of a drawing, by `palette` unless the values are around zero; the range of
     /// a `length` begins at zero.
-    ///
-    /// # Errors
-    /// If the range given is not two numbers, the lower first.
     pub(super) fn bar(
         &self,
         name: &str,

@@ -25,17 +25,11 @@ impl Picture {
     }
 
     /// Writes the picture as PNG without opacity, replacing an older file only when done.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<()> {
         crate::picture::canvas::write_png(path, [self.width, self.height], &self.rgb())
     }
 
     /// Reads a file written by [`Self::save`].
-    ///
-    /// # Errors
-    /// If the file cannot be read or is of another kind.
     pub fn load(path: &Path) -> Result<Self> {
         let place = || format!("{}: cannot read the picture", path.display());
         let file = std::fs::File::open(path).with_context(place)?;
@@ -64,9 +58,6 @@ impl Picture {
 
 /// Writes `count` frames of one size as an animated PNG file that loops forever, each frame shown for `delay`. Frames are
 /// drawn one after the other, so that only their compressed bytes are kept in memory.
-///
-/// # Errors
-/// Returns the errors of the frames, and an error if they are not `count` or differ in size, or the file cannot be written.
 pub fn animate(
     path: &Path,
     count: u32,

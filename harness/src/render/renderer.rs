@@ -38,9 +38,6 @@ pub struct Renderer {
 
 impl Renderer {
     /// A renderer of pictures of `size` (width, height; pixels, title and colour bar included).
-    ///
-    /// # Errors
-    /// [`Error::Limit`] if the device does not support textures of that size, [`Error::Device`] if it fails.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, size: [u32; 2]) -> Result<Self> {
         let most = device.limits().max_texture_dimension_2d;
         let [least, largest] = [size[0].min(size[1]), size[0].max(size[1])];
@@ -74,9 +71,6 @@ impl Renderer {
     }
 
     /// The picture of a drawing, with its title, colour bars and scale bar.
-    ///
-    /// # Errors
-    /// If values in the drawing are not finite or refer to nothing, or if the device fails.
     pub fn render(&self, drawing: &Drawing<'_>) -> anyhow::Result<Picture> {
         let layout = Layout::new(drawing, self.size)?;
         let (camera, view) = self.view(drawing, layout.view_size())?;
@@ -84,9 +78,6 @@ impl Renderer {
     }
 
     /// The camera that has everything in all `drawings`, such as the frames of an animation, in view.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Self::render`].
     pub fn framing(&self, drawings: &[Drawing<'_>], look: Look) -> anyhow::Result<Camera> {
         let mut aspect = f64::INFINITY;
         for drawing in drawings {

@@ -49,10 +49,7 @@ pub struct Args {
     pub adapter: Option<String>,
 }
 
-/// Measures the classes and writes the report.
-///
-/// # Errors
-/// If no class matches, there is no adapter, or a file cannot be written. A point that breaks off is a row, not an error.
+/// Measures the classes and writes the report. A point that breaks off is a row, not an error.
 pub fn run(args: &Args) -> anyhow::Result<()> {
     let classes = select(args)?;
     let context = CaseContext::open(args.adapter.as_deref(), args.full)?;

@@ -26,9 +26,6 @@ const SETTINGS: &str = "<p>Settings. <b>default</b>: what the library chooses (H
     steps. Free water: <b>delta</b> (the default) and <b>mueller</b>.</p>\n";
 
 /// The page of a report, with the classes that have run.
-///
-/// # Errors
-/// If the font of its diagrams cannot be read.
 pub fn page(report: &Report, classes: &[Class]) -> Result<String> {
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\

@@ -162,9 +162,6 @@ pub struct Table {
 
 impl Table {
     /// An empty table.
-    ///
-    /// # Errors
-    /// If it cannot be written.
     pub fn create(path: &Path) -> riprap::Result<Self> {
         let table = Self {
             path: path.to_owned(),
@@ -175,9 +172,6 @@ impl Table {
     }
 
     /// Reads the table of an earlier report.
-    ///
-    /// # Errors
-    /// If it cannot be read, or a line is not a row.
     pub fn resume(path: &Path) -> riprap::Result<Self> {
         let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
         let lines = text.lines().enumerate().skip(1);
@@ -199,9 +193,6 @@ impl Table {
     }
 
     /// Adds a row.
-    ///
-    /// # Errors
-    /// If it cannot be written.
     pub fn push(&mut self, row: Row) -> riprap::Result<()> {
         let opened = OpenOptions::new().append(true).open(&self.path);
         let written = opened.and_then(|mut file| writeln!(file, "{}", row.line()));
@@ -211,9 +202,6 @@ impl Table {
     }
 
     /// Writes all rows again, after they have changed.
-    ///
-    /// # Errors
-    /// If they cannot be written.
     pub fn write(&self) -> riprap::Result<()> {
         replace(&self.path, |file| {
             writeln!(file, "{HEAD}")?;

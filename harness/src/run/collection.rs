@@ -29,9 +29,6 @@ enum Content {
 }
 
 /// The collections that a run writes: new ones, or those continued after a restart.
-///
-/// # Errors
-/// If one cannot be written.
 pub fn recorders(run: &SceneRun, folder: &Path, last: u64) -> riprap::Result<Recorders> {
     let (simulation, scene) = (&run.simulation, run.scene());
     let mut contents = Vec::new();

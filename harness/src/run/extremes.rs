@@ -27,9 +27,6 @@ fn beside(path: &Path) -> PathBuf {
 }
 
 /// Keeps the extremes of `log` until `step`, at the checkpoint at `path`.
-///
-/// # Errors
-/// If the file cannot be written.
 pub fn keep(path: &Path, step: u64, log: &RunLog) -> Result<()> {
     let text = toml::to_string(&Extremes {
         step,

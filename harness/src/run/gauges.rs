@@ -12,9 +12,6 @@ use riprap::{
 use std::path::Path;
 
 /// The recorder of the table of `probe`.
-///
-/// # Errors
-/// If it cannot be written.
 pub fn recorder(
     run: &SceneRun,
     folder: &Path,

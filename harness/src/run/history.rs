@@ -18,9 +18,6 @@ use std::path::Path;
 const POINTS: f64 = 200.0;
 
 /// The recorder of the history with this number.
-///
-/// # Errors
-/// If its table cannot be written.
 pub fn recorder(
     run: &SceneRun,
     folder: &Path,

@@ -45,9 +45,6 @@ pub struct LatticeSummary {
 
 impl LatticeSummary {
     /// The properties of the lattice of `run` before the first step, if it has one.
-    ///
-    /// # Errors
-    /// If the bandwidth of the device cannot be measured.
     pub fn of(run: &SceneRun) -> Result<Option<Self>> {
         let Some((lattice, units)) = run.lattice() else {
             return Ok(None);

@@ -92,10 +92,6 @@ pub struct Args {
 /// Runs a scene until its end, or until `stop` is set.
 ///
 /// A flow that diverges is no error here: the summary reports it and what is on disk.
-///
-/// # Errors
-/// Returns errors of the input as [`riprap::Error`], and errors that ended a run under way in the context of
-/// [`Unfinished`].
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let scene = Scene::from_file(&args.scene)?;
     match args.error_estimate {

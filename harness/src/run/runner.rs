@@ -76,9 +76,6 @@ impl Runner {
     }
 
     /// Makes the run stop when the statistical errors of the quantities `of`, or of all probes of `scene`, are at most `until`.
-    ///
-    /// # Errors
-    /// If there are no such statistics.
     pub fn stop_at_error(&mut self, until: UntilError, of: &[String], scene: &Scene) -> Result<()> {
         let probes: Vec<&str> = scene
             .probes

@@ -79,9 +79,6 @@ fn drive<T>(
 
 impl SceneRun {
     /// Opens the scene that was read from `file`, at its start, on the adapter called `adapter` or on the best one.
-    ///
-    /// # Errors
-    /// If the scene is invalid, with the line in the file, or does not fit the adapter.
     pub fn open(scene: &Scene, file: &Path, adapter: Option<&str>) -> Result<Self> {
         Self::of(scene, adapter).map_err(|error| broadphase::located(error, file))
     }
@@ -209,9 +206,6 @@ impl SceneRun {
     }
 
     /// Takes `steps` steps; the device is idle at their end.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Simulation::advance`], and an error if the device does not answer.
     pub fn advance(&mut self, steps: u64) -> Result<()> {
         let what = format!("{steps} steps");
         drive(self.device.as_ref(), &what, self.simulation.advance(steps))?;
@@ -228,45 +222,30 @@ impl SceneRun {
     }
 
     /// Restores the state from a checkpoint.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Checkpoint::read`] and [`Simulation::restore`].
     pub fn restore(&mut self, path: &Path) -> Result<()> {
         self.last_water = None;
         self.simulation.restore(&Checkpoint::read(path)?)
     }
 
     /// Writes a checkpoint, from which a run continues bitwise.
-    ///
-    /// # Errors
-    /// If the device is lost, or the file cannot be written.
     pub fn checkpoint(&mut self, path: &Path) -> Result<()> {
         let state = self.simulation.checkpoint();
         drive(self.device.as_ref(), "reading the state", state)?.write(path)
     }
 
     /// The given fields on all cells of the lattice.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Simulation::image`].
     pub fn image(&mut self, fields: &[Field]) -> Result<ImageData> {
         let image = self.simulation.image(fields);
         drive(self.device.as_ref(), "reading the fields", image)
     }
 
     /// Sums over the lattice.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Simulation::totals`].
     pub fn totals(&mut self) -> Result<Totals> {
         let totals = self.simulation.totals();
         drive(self.device.as_ref(), "summing up", totals)
     }
 
     /// The given fields on the given cells of the lattice; none without a lattice, where pictures need none.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Simulation::read`].
     pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> Result<Vec<Array>> {
         if self.simulation.lattice().is_none() {
             return Ok(Vec::new());
@@ -276,27 +255,18 @@ impl SceneRun {
     }
 
     /// The largest y⁺ at walls and blocks of the lattice.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Simulation::wall_units`].
     pub fn wall_units(&mut self) -> Result<WallUnits> {
         let found = self.simulation.wall_units();
         drive(self.device.as_ref(), "reading cells beside walls", found)
     }
 
     /// The friction on walls with a wall model.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Simulation::wall_friction`].
     pub fn wall_friction(&mut self) -> Result<WallFrictions> {
         let found = self.simulation.wall_friction();
         drive(self.device.as_ref(), "reading the friction of walls", found)
     }
 
     /// The present state of free water.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Simulation::water`].
     pub fn water(&mut self) -> Result<Rc<Water>> {
         let step = self.simulation.step();
         if let Some((read, water)) = &self.last_water
@@ -344,9 +314,6 @@ impl SceneRun {
     }
 
     /// The summary before the first step.
-    ///
-    /// # Errors
-    /// If the bandwidth of the device cannot be measured.
     pub fn summary(&self) -> Result<Summary> {
         let lattice = self.lattice();
         Ok(Summary {
@@ -366,9 +333,6 @@ impl SceneRun {
     }
 
     /// Copy bandwidth of the device, bytes per second.
-    ///
-    /// # Errors
-    /// If it cannot be measured.
     pub fn bandwidth(&self) -> Result<f64> {
         match &self.device {
             Some((device, queue)) => copy_bandwidth(device, queue, BYTES),

@@ -114,9 +114,6 @@ impl Summary {
     }
 
     /// Writes `summary.json` into `folder` and lists it among the files.
-    ///
-    /// # Errors
-    /// If it cannot be written.
     pub fn write(&mut self, folder: &Path) -> anyhow::Result<()> {
         let path = folder.join("summary.json");
         if !self.files.contains(&path) {

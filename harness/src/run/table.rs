@@ -31,9 +31,6 @@ type Rows = Box<dyn FnMut(&mut SceneRun, &mut RunLog) -> Result<Vec<Vec<f64>>>>;
 
 impl TimeTable {
     /// Creates the table in `folder`, or continues it after a restart; `rows` are due until the step `last`.
-    ///
-    /// # Errors
-    /// If the table cannot be written or has other columns.
     pub fn recorder(
         self,
         run: &SceneRun,

@@ -125,9 +125,6 @@ fn columns(places: &[WallPlace]) -> Vec<String> {
 }
 
 /// The recorder of the table; `None` without a model.
-///
-/// # Errors
-/// If it cannot be written.
 pub fn recorder(
     run: &SceneRun,
     folder: &Path,

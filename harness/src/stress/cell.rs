@@ -115,9 +115,6 @@ impl Cell {
     }
 
     /// Runs `follow` and returns the cell with its outcome and the time spent.
-    ///
-    /// # Errors
-    /// Returns errors that are not the library's: they are not findings.
     pub fn run(
         mut self,
         follow: impl FnOnce(&mut Self) -> anyhow::Result<()>,
@@ -129,10 +126,7 @@ impl Cell {
         Ok(self)
     }
 
-    /// Records the error that ended the run, if any.
-    ///
-    /// # Errors
-    /// Returns errors that are not the library's: they are not findings.
+    /// Records the error that ended the run, if any. Errors that are not the library's are returned: they are not findings.
     pub fn end(&mut self, ended: anyhow::Result<()>) -> anyhow::Result<()> {
         let Err(error) = ended else { return Ok(()) };
         match error.downcast_ref::<Error>() {

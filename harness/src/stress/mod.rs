@@ -64,9 +64,6 @@ fn bytes_that_differ(a: &[u8], b: &[u8]) -> usize {
 }
 
 /// Runs and draws the maps. Returns whether no message was unclear and no judged value missed its limit.
-///
-/// # Errors
-/// If there is no adapter, or the files cannot be written.
 pub fn run(args: &Args) -> anyhow::Result<bool> {
     let context = CaseContext::open(args.adapter.as_deref(), args.full)?;
     let mut sink = Sink::begin(&args.out, Machine::of(&context.device.adapter_info()))?;
@@ -187,9 +184,6 @@ impl Map {
     }
 
     /// Draws its picture in the folder of the sink.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
     pub fn draw(&self, sink: &Sink) -> anyhow::Result<()> {
         let cells = sink.of(self.name);
         let first = |of: fn(&Cell) -> &String| {

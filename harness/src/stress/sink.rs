@@ -24,9 +24,6 @@ pub struct Sink {
 
 impl Sink {
     /// Starts an empty table and list in `folder`, for results of this machine.
-    ///
-    /// # Errors
-    /// If they cannot be written.
     pub fn begin(folder: &Path, machine: Machine) -> Result<Self> {
         std::fs::create_dir_all(folder)
             .with_context(|| format!("cannot make {}", folder.display()))?;
@@ -45,9 +42,6 @@ impl Sink {
     }
 
     /// Writes a cell to both files and prints it.
-    ///
-    /// # Errors
-    /// If a file cannot be written.
     pub fn add(&mut self, cell: Cell) -> Result<()> {
         println!("{}", line(&cell));
         // One write per row: a killed run ends between rows.

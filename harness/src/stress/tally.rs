@@ -26,9 +26,6 @@ impl Tally {
     /// Totals of a tank whose fluid has the density 1 and whose free blocks have `ratio`.
     ///
     /// The water inside a block moves with the block and is no load on it, so it counts once, in the fluid.
-    ///
-    /// # Errors
-    /// If the device is lost, or the tank has no blocks.
     pub fn of(tank: &mut Tank<'_>, ratio: f64) -> anyhow::Result<Self> {
         let totals = tank.totals()?;
         let coupled = tank.simulation.coupled();
@@ -68,9 +65,6 @@ pub struct Peaks {
 
 impl Peaks {
     /// Runs `steps` steps in `looks` equal parts and records the step in `cell`; `ratio` as for [`Tally::of`].
-    ///
-    /// # Errors
-    /// Returns the error that ends the run.
     pub fn of(
         tank: &mut Tank<'_>,
         ratio: f64,

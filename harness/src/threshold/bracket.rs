@@ -14,9 +14,6 @@ pub struct Bracket {
 
 impl Bracket {
     /// A bracket with both ends, which are tried first.
-    ///
-    /// # Errors
-    /// If they are equal or not finite, or the tolerance is not positive.
     pub fn new(still: f64, moves: f64, tolerance: f64) -> Result<Self> {
         if !(still.is_finite() && moves.is_finite()) || still == moves {
             let message = format!(
@@ -49,9 +46,6 @@ impl Bracket {
     }
 
     /// Records whether a block `moved` at the `value` that [`Bracket::next`] gave.
-    ///
-    /// # Errors
-    /// Returns a message if a block moves at the first end, or none at the second.
     pub fn take(&mut self, value: f64, moved: bool) -> std::result::Result<(), String> {
         match (self.tried, moved) {
             (0, true) => {

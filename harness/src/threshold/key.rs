@@ -24,9 +24,6 @@ fn names(step: &Step) -> bool {
 
 impl Key {
     /// Parses a key.
-    ///
-    /// # Errors
-    /// If the text is not a key.
     pub fn parse(text: &str) -> Result<Self> {
         let wrong = || {
             let message = format!(
@@ -53,9 +50,6 @@ impl Key {
 
     /// Sets the number in the scene to a value, or multiplies the formula that is there by it. A number that a table does not
     /// have yet is added.
-    ///
-    /// # Errors
-    /// If the scene has no such key, or if its value is neither a number nor a formula.
     pub fn set(&self, scene: &mut Table, value: f64) -> Result<()> {
         let Some((last, way)) = self.steps.split_last() else {
             return Ok(());

@@ -74,9 +74,6 @@ pub struct Args {
 }
 
 /// Bisects until the values are close enough, or until `stop` is set.
-///
-/// # Errors
-/// If the scene or the key is wrong, a block moves at `from`, no block moves at `to`, or a trial fails.
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<Report> {
     let text = std::fs::read_to_string(&args.scene).map_err(|error| {
         let message = format!("cannot read the scene: {error}; check the path");

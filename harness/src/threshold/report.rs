@@ -75,9 +75,6 @@ impl Report {
     }
 
     /// Writes both files into `folder`.
-    ///
-    /// # Errors
-    /// If they cannot be written.
     pub fn write(&self, folder: &Path) -> anyhow::Result<()> {
         let json = serde_json::to_string_pretty(self)? + "\n";
         replace(&folder.join("threshold.json"), |file| {

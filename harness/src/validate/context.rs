@@ -34,9 +34,6 @@ pub struct CaseContext {
 
 impl CaseContext {
     /// Opens the adapter whose description contains `name`, or the first one, with all its limits.
-    ///
-    /// # Errors
-    /// If there is no such adapter or its driver refuses.
     pub fn open(name: Option<&str>, full: bool) -> anyhow::Result<Self> {
         let adapter = gpu::pick(name)?;
         let info = adapter.get_info();
@@ -61,9 +58,6 @@ impl CaseContext {
     }
 
     /// Draws a chart into NAME.png if [`Self::pictures`] is set.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
     pub fn draw(&self, name: &str, chart: &Chart) -> anyhow::Result<()> {
         match &self.pictures {
             Some(folder) => chart.draw(&folder.join(name).with_extension("png")),
@@ -72,9 +66,6 @@ impl CaseContext {
     }
 
     /// Writes a table with column heads into NAME.csv if [`Self::pictures`] is set.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
     pub fn write_table<const N: usize>(
         &self,
         name: &str,
@@ -108,9 +99,6 @@ impl CaseContext {
     }
 
     /// A flow that starts from a state; with `non_equilibrium`, its viscous stress is included.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Lattice::new`] and [`Lattice::start`].
     pub fn flow(
         &self,
         setup: Setup,
@@ -124,9 +112,6 @@ impl CaseContext {
     }
 
     /// A flow that continues from populations.
-    ///
-    /// # Errors
-    /// Returns the errors of [`Lattice::new`] and [`Lattice::set_populations`].
     pub fn resumed(&self, setup: Setup, populations: &Populations) -> anyhow::Result<Flow<'_>> {
         let mut flow = self.still(setup)?;
         flow.lattice
@@ -146,9 +131,6 @@ impl CaseContext {
     }
 
     /// Waits for a future, at most as long as a device may be silent.
-    ///
-    /// # Errors
-    /// If it is not ready in time.
     pub fn drive<T>(&self, what: &str, future: impl Future<Output = T>) -> riprap::Result<T> {
         gpu::drive(&self.device, PATIENCE, what, future)
     }
@@ -211,9 +193,6 @@ impl Flow<'_> {
     }
 
     /// Runs steps.
-    ///
-    /// # Errors
-    /// If the guard finds a fault, or the device is lost or silent.
     pub fn advance(&mut self, steps: u64) -> anyhow::Result<()> {
         match self.try_advance(steps)? {
             None => Ok(()),

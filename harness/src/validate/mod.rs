@@ -224,9 +224,6 @@ pub const CASES: &[Case] = &[
 ];
 
 /// The cases whose names match.
-///
-/// # Errors
-/// If the pattern is invalid, or if no case matches; the message lists the names of all cases.
 pub fn select(pattern: Option<&str>) -> anyhow::Result<Vec<Case>> {
     let pattern = glob::Pattern::new(pattern.unwrap_or("*"))
         .with_context(|| format!("--case {} is no pattern", pattern.unwrap_or_default()))?;
@@ -255,10 +252,7 @@ pub fn list(cases: &[Case]) -> String {
 }
 
 /// Runs the matching cases and prints the records of each case as it ends. Returns whether all passed.
-///
-/// # Errors
-/// If no case matches, there is no adapter, or the JSON file cannot be written. A case that breaks off does not stop the others:
-/// it fails, and its record holds the error.
+/// A case that breaks off does not stop the others: it fails, and its record holds the error.
 pub fn run(args: Args) -> anyhow::Result<bool> {
     let cases = select(args.case.as_deref())?;
     if args.list {

@@ -100,9 +100,6 @@ pub fn turn(n: u32) -> Rotation {
 pub const GRAVITY: f64 = 9.81;
 
 /// A plane tank of `size` (m), open above, with water; `more` holds further TOML tables.
-///
-/// # Errors
-/// If the text is not a valid scene.
 pub fn pool(size: [f64; 2], spacing: f64, water: [f64; 2], more: &str) -> anyhow::Result<Scene> {
     let [length, height] = size;
     let [reach, depth] = water;
@@ -161,9 +158,6 @@ pub struct Tank<'a> {
 
 impl<'a> Tank<'a> {
     /// Creates the simulation of a scene on the device.
-    ///
-    /// # Errors
-    /// If the scene is invalid, or the device cannot run it.
     pub fn fill(context: &'a CaseContext, scene: &Scene) -> anyhow::Result<Self> {
         scene.check()?;
         let made = Simulation::new(&context.device, &context.queue, scene);
@@ -191,9 +185,6 @@ impl<'a> Tank<'a> {
     }
 
     /// Runs steps of the lattice.
-    ///
-    /// # Errors
-    /// If the flow leaves the range of the method, or the device is lost or silent.
     pub fn advance(&mut self, steps: u64) -> anyhow::Result<()> {
         let begin = Instant::now();
         let cells = self.lattice().grid().cell_count() as u64;
@@ -209,9 +200,6 @@ impl<'a> Tank<'a> {
     }
 
     /// Runs free water to the first step that ends at the time `until` (s) or later.
-    ///
-    /// # Errors
-    /// If the water leaves the range of the method, or the device is lost or silent.
     pub fn advance_to(&mut self, until: f64) -> anyhow::Result<()> {
         let begin = Instant::now();
         while self.simulation.time() < until * (1.0 - 1e-9) {
@@ -263,9 +251,6 @@ impl<'a> Tank<'a> {
     }
 
     /// Fields in single cells, given by their indices in an array over the domain with x fastest.
-    ///
-    /// # Errors
-    /// If a cell is outside, or the device is lost or silent.
     pub fn read(&mut self, fields: &[Field], cells: &[u32]) -> anyhow::Result<Vec<Array>> {
         let read = self.simulation.read(fields, cells);
         Ok(self.context.drive("reading cells", read)??)

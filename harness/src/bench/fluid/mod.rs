@@ -25,9 +25,6 @@ use row::{Ceilings, StepWork};
 use variant::{Group, PLAIN, STATISTICS, STREAM_ONLY, Variant};
 
 /// Measures the kernels of the fluid on each grid.
-///
-/// # Errors
-/// If the device fails.
 pub fn measure(args: &Args, bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let software = bench.machine.software;
     let mut clock = bench.clock();

@@ -21,9 +21,6 @@ pub struct Crossover {
 }
 
 /// Measures both searches over the numbers of boxes, and their crossover.
-///
-/// # Errors
-/// If the device fails.
 pub fn crossover(bench: &Bench<'_>) -> Result<(Vec<Row>, Vec<Crossover>)> {
     let plan = Plan {
         piles: Vec::new(),

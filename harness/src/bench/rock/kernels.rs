@@ -21,9 +21,6 @@ use std::sync::Arc;
 pub const CUBE: &str = "cube by three joint sets";
 
 /// Cuts a cube by three oblique joint sets of 1 m with scattered spacing, over the numbers of blocks.
-///
-/// # Errors
-/// If the cutter refuses the mass.
 pub fn cut(plan: &Plan, rows: &mut Vec<Row>) -> Result<()> {
     for &wanted in &plan.items {
         // Each block has one cubic metre, less at the sides.
@@ -50,9 +47,6 @@ pub fn cut(plan: &Plan, rows: &mut Vec<Row>) -> Result<()> {
 }
 
 /// Measures both broadphases on boxes of one size and of sizes 1:100, over the numbers of boxes.
-///
-/// # Errors
-/// If the device fails.
 pub fn broadphase(
     plan: &Plan,
     core: &Core,
@@ -110,9 +104,6 @@ const WALLS: [DVec3; 4] = [
 
 /// Compares one moving block among five fixed ones with one on a plane: pairs that cannot touch and blocks that do not move
 /// should cost nothing. The two are stepped in turns; the ratio is that of the fastest times.
-///
-/// # Errors
-/// If a step fails.
 pub fn few_blocks(plan: &Plan, core: &Core, rows: &mut Vec<Row>) -> Result<()> {
     let mut scenes = [block_among(&[])?, block_among(&WALLS)?];
     let looked_at = |blocks: &Blocks| (blocks.counts().pairs, blocks.steps());

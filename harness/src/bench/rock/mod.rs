@@ -202,9 +202,6 @@ fn fastest(rounds: usize, calls: usize, mut call: impl FnMut() -> Result<Spent>)
 }
 
 /// Measures the whole plan and prints a table as it goes; without a device, only on the host.
-///
-/// # Errors
-/// If the device or a step fails.
 pub fn measure(plan: &Plan, device: Option<&Bench<'_>>) -> Result<(Vec<Row>, Vec<Target>)> {
     println!("\nrock: the fastest of {} samples\n{}", plan.rounds, HEAD);
     let core = Core::new()?;

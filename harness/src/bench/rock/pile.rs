@@ -27,9 +27,6 @@ pub const ONE_CORE: &str = "pile at rest, one core";
 const FRAMES: usize = 4;
 
 /// Measures contacts, warm and cold, and the step, for each number of blocks.
-///
-/// # Errors
-/// If a step fails.
 pub fn measure(plan: &Plan, core: &Core, rows: &mut Vec<Row>) -> Result<()> {
     for &count in &plan.piles {
         let mut pile = Pile::settled(count)?;

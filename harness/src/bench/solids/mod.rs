@@ -107,9 +107,6 @@ impl Plan {
 }
 
 /// Measures, and prints a table as it goes.
-///
-/// # Errors
-/// If the device fails.
 pub fn measure(bench: &Bench<'_>) -> anyhow::Result<(Vec<Row>, Vec<Target>)> {
     let plan = Plan::new(bench.machine.software, bench.quick, bench.full);
     let (rounds, long) = if bench.quick { (3, 0.1) } else { (7, 0.3) };

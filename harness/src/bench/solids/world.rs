@@ -28,17 +28,11 @@ pub struct World {
 
 impl World {
     /// A periodic box of n³ cells whose fluid moves in every cell: at rest, denormal numbers would slow a CPU down.
-    ///
-    /// # Errors
-    /// If the scene is none.
     pub fn empty(n: u32) -> riprap::Result<Self> {
         Self::of(n, SPEED, "", String::new())
     }
 
     /// The same with spheres, moving or fixed.
-    ///
-    /// # Errors
-    /// If the scene is none.
     pub fn spheres(n: u32, across: f64, places: &[[f64; 3]], moving: bool) -> riprap::Result<Self> {
         let mut blocks = String::new();
         for (k, place) in places.iter().enumerate() {
@@ -59,9 +53,6 @@ impl World {
     }
 
     /// The same with spheres moved by the fluid.
-    ///
-    /// # Errors
-    /// If the scene is none.
     pub fn free_spheres(n: u32, across: f64, places: &[[f64; 3]]) -> riprap::Result<Self> {
         let mut world = Self::spheres(n, across, places, true)?;
         for block in &mut world.scene.blocks {
@@ -71,9 +62,6 @@ impl World {
     }
 
     /// A fixed sphere at `place`, with a probe that requests the loads on its faces.
-    ///
-    /// # Errors
-    /// If the scene is none.
     pub fn with_face_loads(n: u32, across: f64, place: [f64; 3]) -> riprap::Result<Self> {
         let mut world = Self::spheres(n, across, &[place], false)?;
         let name = String::from("sphere");
@@ -92,9 +80,6 @@ impl World {
     }
 
     /// A free sphere at `place`, so heavy that it falls asleep at once and the fluid does not wake it.
-    ///
-    /// # Errors
-    /// If the scene is none.
     pub fn asleep(n: u32, across: f64, place: [f64; 3]) -> riprap::Result<Self> {
         let mut world = Self::spheres(n, across, &[place], false)?;
         world.scene.blocks[0].motion = Motion::Free;
@@ -118,9 +103,6 @@ impl World {
 
     /// Stacks of four cubes on a floor; without weight they float, so close together that the flow hardly differs. The fluid is
     /// slow: at its usual speed it would throw them against each other.
-    ///
-    /// # Errors
-    /// If the scene is none.
     pub fn stacks(n: u32, weight: bool) -> riprap::Result<Self> {
         let gap = if weight { 0.0 } else { APART };
         let (edge, pitch) = (f64::from(BRICK), f64::from(BRICK + 1));
@@ -245,17 +227,11 @@ impl InterleavedRuns {
     }
 
     /// Seconds of `work`, on the time base of the speeds.
-    ///
-    /// # Errors
-    /// Returns the errors of `work`.
     pub fn time(&self, work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<f64> {
         Ok(self.clock.basis(self.clock.time(work)?))
     }
 
     /// Creates the simulations of the worlds and steps them in turns.
-    ///
-    /// # Errors
-    /// If the device fails.
     pub fn measure(&self, worlds: &mut [World]) -> anyhow::Result<Times> {
         let (device, queue) = (&self.clock.device, &self.clock.queue);
         let mut steps = Vec::new();
@@ -283,9 +259,6 @@ impl InterleavedRuns {
     }
 
     /// Seconds per step on the host, without the wait for the device, and on the device; zero without timestamps.
-    ///
-    /// # Errors
-    /// If the device fails.
     pub fn host_and_device(&self, world: &mut World, steps: u64) -> anyhow::Result<[f64; 2]> {
         let (device, queue) = (&self.clock.device, &self.clock.queue);
         let made = Simulation::new(device, queue, &world.scene);

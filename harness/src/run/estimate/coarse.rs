@@ -17,9 +17,6 @@ pub struct Halved {
 }
 
 /// The scene with cells twice as wide, particles twice as far apart, or without a fluid steps twice as long.
-///
-/// # Errors
-/// If the scene does not fit half the resolution.
 pub fn halved(scene: &Scene, args: &Args) -> Result<Halved> {
     let mut half = scene.clone();
     half.views.clear();

@@ -40,9 +40,6 @@ pub struct Estimate {
 }
 
 /// Runs the scene at half its resolution and then as it is, and compares.
-///
-/// # Errors
-/// Returns the errors of [`super::run`], and, before anything runs, those of the scene at half its resolution.
 pub fn run(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     if args.restart.is_some() {
         let message = "the scene at half its resolution has no such checkpoint; leave out `--restart` or \

@@ -54,9 +54,6 @@ impl Row {
 }
 
 /// The recorders of the tables of a probe of the block called `name`.
-///
-/// # Errors
-/// If there is no such block, or a table cannot be written.
 pub fn recorders(
     run: &SceneRun,
     folder: &Path,

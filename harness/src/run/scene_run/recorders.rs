@@ -19,9 +19,6 @@ use std::path::Path;
 
 impl SceneRun {
     /// The recorders of the scene until the step `last`, except histories and checkpoints.
-    ///
-    /// # Errors
-    /// If a probe cannot be placed in the scene, or a table cannot be written.
     pub fn recorders(&self, folder: &Path, last: u64) -> Result<Recorders> {
         let scene = self.scene();
         let kind = self.simulation.kind();

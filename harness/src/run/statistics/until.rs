@@ -79,9 +79,6 @@ pub struct Converged {
 impl Convergence {
     /// Stops at the error `until` of the tables and quantities `of`, or of all `probes` if none are named, in a run with these
     /// tables.
-    ///
-    /// # Errors
-    /// If there are no statistics, or a requested one is missing.
     pub fn new(
         until: UntilError,
         of: &[String],

@@ -67,9 +67,6 @@ impl Array {
     }
 
     /// Computes the flow through the array.
-    ///
-    /// # Errors
-    /// If the flow does not become steady, or leaves the range of the method.
     pub fn measure(&self, context: &CaseContext) -> anyhow::Result<Measured> {
         let radius = 0.5 * self.diameter();
         let body = match self.surface {

@@ -108,9 +108,6 @@ pub struct Drag {
 }
 
 /// Drag on a cube of `size` cells, face on, in the narrow stream; the Reynolds number is that of its edge.
-///
-/// # Errors
-/// If the flow leaves the range of the method, or the device is lost or silent.
 pub fn cube_on(
     context: &CaseContext,
     size: u32,

@@ -59,9 +59,6 @@ pub fn static_solids(edge: u32, keys: &str) -> anyhow::Result<Vec<Solid>> {
 
 impl PeriodicFlow {
     /// Computes the steady flow along x.
-    ///
-    /// # Errors
-    /// If the flow does not become steady, or leaves the range of the method.
     pub fn measure(&self, context: &CaseContext, name: &str) -> anyhow::Result<Drag> {
         let nu = (self.tau - 0.5) / 3.0;
         let volume = f64::from(self.edge).powi(3);

@@ -88,9 +88,6 @@ pub struct Fall {
 impl Oil {
     /// Runs the fall until `time` (s), with `cells` along the edge of the floor and the largest velocity `speed` in lattice
     /// units.
-    ///
-    /// # Errors
-    /// If the flow leaves the range of the method, or the device is lost or silent.
     pub fn fall(
         &self,
         context: &CaseContext,

@@ -64,9 +64,6 @@ pub struct Wave {
 }
 
 /// Runs a tank `layers` spacings deep and `length` (m) long.
-///
-/// # Errors
-/// If the water leaves the range of the method or has no wave, or the device is lost or silent.
 pub fn measure(
     context: &CaseContext,
     layers: u32,

@@ -16,7 +16,6 @@ struct PsmCell {
     shares: Real,
     velocity: Vector,
     near: Mask,
-    adjacent: Mask,
     interior: Mask,
     joint: Mask,
     facing: Mask,
@@ -32,7 +31,7 @@ fn psm_cell(slot: u32, local: u32) -> PsmCell {
         unpack_reals(read_psm(PLANE_VELOCITY + 2u, slot, local)),
     );
     let fraction = unpack_reals(read_psm(PLANE_FRACTION, slot, local));
-    let blocks = PsmCell(fraction, sum.fraction, velocity, sum.near, sum.adjacent, sum.interior, sum.joint, sum.facing, sum.several);
+    let blocks = PsmCell(fraction, sum.fraction, velocity, sum.near, sum.interior, sum.joint, sum.facing, sum.several);
     return with_surface(blocks, slot, local);
 }
 
@@ -99,7 +98,7 @@ fn collide_with_solid(
     let higher = with_law(higher_without_law, share_of_law);
     *h = s;
     let fluid = (psm.shares > Real(0.0)) & !solid(cell);
-    let clear = (psm.adjacent | !(e > Real(0.0))) & !solid(cell);
+    let clear = (e == Real(0.0)) & !solid(cell);
     let beta = select(Real(0.0), weight / max(psm.shares, Real(1e-30)), fluid);
     // Values beyond the domain may be NaN; they must not count.
     let a = factor * rho;

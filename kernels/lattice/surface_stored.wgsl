@@ -13,7 +13,6 @@ fn with_surface(psm: PsmCell, index: u32, local: u32) -> PsmCell {
         select(Real(0.0), shares, block),
         Vector(part * psm.velocity.x, part * psm.velocity.y, part * psm.velocity.z),
         psm.near | surface.near,
-        psm.adjacent,
         psm.interior,
         psm.joint | (block & (e > Real(0.0))),
         psm.facing & (e == Real(0.0)),

@@ -33,8 +33,6 @@ struct SolidSum {
     fraction: Real,
     // Next to a block, or in one.
     near: Mask,
-    // Next to a block and empty.
-    adjacent: Mask,
     interior: Mask,
     joint: Mask,
     facing: Mask,
@@ -57,5 +55,5 @@ fn decode_sum(kept: Real) -> SolidSum {
     let interior = (kept >= Real(INTERIOR_SUM)) & !several;
     let met = select(select(Real(JOINT_SUM), Real(FACING_SUM), facing), Real(SHARED_SUM), open);
     let code = select(select(Real(0.0), Real(INTERIOR_SUM), interior), met, several);
-    return SolidSum(max(kept - code, Real(0.0)), kept != Real(0.0), kept < Real(0.0), interior, several & !open, facing, several);
+    return SolidSum(max(kept - code, Real(0.0)), kept != Real(0.0), interior, several & !open, facing, several);
 }

@@ -203,6 +203,7 @@ impl Rock {
             .map(|block| self.load(block, &poses[block], dt))
             .collect();
         self.keep_sleeping_loads(&mut loads);
+        self.blocks.set_load_interval(dt);
         let moved = match self.blocks.set_loads(&loads) {
             Ok(()) => self.blocks.advance(&mut self.broadphase, until).await,
             refused => refused,

@@ -59,6 +59,8 @@ pub struct Blocks {
     pub(super) joints: Joints,
     pub(super) gravity: DVec3,
     pub(super) damping: f64,
+    /// Interval over which the loads of a fluid are constant, s.
+    pub(super) load_interval: f64,
     /// Whether the setup prescribes the time step.
     pub(super) given_step: bool,
     pub(super) skin: f64,
@@ -124,6 +126,7 @@ impl Blocks {
             joints,
             gravity: setup.gravity,
             damping: setup.damping,
+            load_interval: 0.0,
             given_step: setup.time_step.is_some(),
             sleep: setup.sleep,
             start_overlap: setup.start_overlap,
@@ -335,6 +338,13 @@ impl Blocks {
     /// Number of candidate pairs.
     pub fn candidate_pair_count(&self) -> usize {
         self.pairs.len()
+    }
+
+    /// Sets the interval (s) over which the external loads are constant, zero at the start. The load of a fluid lags behind the
+    /// motion: on a strain that vibrates faster than the interval resolves, it does work that grows. Such strains of deformable
+    /// blocks have viscous stresses, up to critical damping where ω times the interval is above 2, and follow the loads.
+    pub fn set_load_interval(&mut self, interval: f64) {
+        self.load_interval = interval;
     }
 
     /// Sets the external loads of all blocks, which act until they are set again.

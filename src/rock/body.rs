@@ -275,6 +275,7 @@ pub(super) fn first_half(body: &Body, state: &State, params: StepParams) -> (DVe
         damping,
         time,
         dt,
+        ..
     } = params;
     let [rate, torque] = body.pulls(state, gravity, time);
     (
@@ -341,6 +342,7 @@ pub(super) fn second_kick(body: &Body, state: &mut State, params: StepParams) {
         damping,
         time,
         dt,
+        ..
     } = params;
     let [rate, torque] = body.pulls(state, gravity, time + dt);
     state.velocity = integrate::second_kick(state.velocity, rate, damping, dt);

@@ -19,6 +19,9 @@ use crate::{
 use glam::{DMat3, DVec3};
 use rayon_cond::CondIterator;
 
+/// Number of evaluations of the viscous stress at the end of a step.
+const PASSES: usize = 4;
+
 /// Index that marks a rigid block.
 pub(super) const RIGID: u32 = u32::MAX;
 
@@ -116,6 +119,8 @@ pub(super) struct StepParams {
     pub gravity: DVec3,
     /// α, 1/s.
     pub damping: f64,
+    /// Interval over which the loads of a fluid are constant, s; zero without a fluid.
+    pub load_interval: f64,
     /// Time at the start of the step, s.
     pub time: f64,
     /// s.
@@ -325,7 +330,7 @@ impl Deforming {
         body: &Body,
         state: &State,
         strain: &Strain,
-        gravity: DVec3,
+        (gravity, load_interval): (DVec3, f64),
         t: f64,
     ) -> Acceleration {
         let mut wrench = Wrench {
@@ -337,7 +342,11 @@ impl Deforming {
             wrench.force += more.force;
             wrench.moment += more.moment;
         }
-        let (rate, turning) = self.affine.accelerations(strain.deformation, &wrench);
+        let (rate, mut turning) = self.affine.accelerations(strain.deformation, &wrench);
+        if load_interval > 0.0 {
+            turning += self.affine.retarding(strain.deformation, strain.rate)
+                * self.affine.retardation(load_interval);
+        }
         let free = rate + gravity;
         let (centre, deformation) = self.constraints.project((free, turning));
         Acceleration {
@@ -356,11 +365,13 @@ impl Deforming {
         StepParams {
             gravity,
             damping,
+            load_interval,
             time,
             dt,
         }: StepParams,
     ) -> TrialStep {
-        let rate = self.accelerations(body, before, strain, gravity, time);
+        let given = (gravity, load_interval);
+        let rate = self.accelerations(body, before, strain, given, time);
         let velocity = integrate::first_kick(before.velocity, rate.centre, damping, dt);
         let half = integrate::first_kick(strain.rate, rate.deformation, damping, dt);
         let mut state = *before;
@@ -402,12 +413,19 @@ impl Deforming {
         let StepParams {
             gravity,
             damping,
+            load_interval,
             time,
             dt,
         } = params;
-        let rate = self.accelerations(body, state, strain, gravity, time + dt);
-        state.velocity = integrate::second_kick(state.velocity, rate.centre, damping, dt);
-        strain.rate = integrate::second_kick(strain.rate, rate.deformation, damping, dt);
+        // The viscous stress depends on the rate at the end of the step. Each pass reduces the error to a tenth or less.
+        let passes = if load_interval > 0.0 { PASSES } else { 1 };
+        let (velocity, half) = (state.velocity, strain.rate);
+        for _ in 0..passes {
+            let given = (gravity, load_interval);
+            let rate = self.accelerations(body, state, strain, given, time + dt);
+            state.velocity = integrate::second_kick(velocity, rate.centre, damping, dt);
+            strain.rate = integrate::second_kick(half, rate.deformation, damping, dt);
+        }
         state.momentum = self
             .affine
             .angular_momentum(strain.deformation, strain.rate);
@@ -464,7 +482,8 @@ impl Blocks {
         let body = &self.bodies[block];
         let (one, strain) = self.deforming.of(body)?;
         let state = &self.states[block];
-        let rate = one.accelerations(body, state, strain, self.gravity, self.time);
+        let given = (self.gravity, self.load_interval);
+        let rate = one.accelerations(body, state, strain, given, self.time);
         (!one.constraints.is_empty()).then_some(rate.support)
     }
 }

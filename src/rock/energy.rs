@@ -33,7 +33,8 @@ pub struct EnergyLedger {
     pub friction: f64,
     /// Dissipated by the dashpots of the contacts.
     pub dashpot: f64,
-    /// Dissipated by the mass damping α.
+    /// Dissipated by the mass damping α, and by the viscous stresses of deformable blocks in a fluid
+    /// ([`Blocks::set_load_interval`](super::Blocks::set_load_interval)).
     pub mass_damping: f64,
     /// Dissipated by films of fluid between blocks that nearly touch.
     pub film: f64,
@@ -128,7 +129,8 @@ impl WorkSums {
         }
         for (body, state) in bodies.iter().zip(states) {
             if body.is_free() {
-                power[1] += damping * 2.0 * kinetic(deforming, body, state);
+                power[1] += damping * 2.0 * kinetic(deforming, body, state)
+                    + retarded_power(deforming, body, params.load_interval);
                 power[3] += load_power(deforming, body, state, params.time + dt);
             } else if !body.is_fixed() {
                 power[2] -= state.force.dot(state.velocity) + state.torque.dot(state.spin);
@@ -216,6 +218,17 @@ fn kinetic(deforming: &DeformingBlocks, body: &Body, state: &State) -> f64 {
         Some((one, strain)) => {
             0.5 * body.mass * state.velocity.length_squared() + one.affine.kinetic(strain.rate)
         }
+    }
+}
+
+/// Power that the viscous stresses of a deformable block dissipate, W.
+fn retarded_power(deforming: &DeformingBlocks, body: &Body, load_interval: f64) -> f64 {
+    match deforming.of(body) {
+        Some((one, strain)) if load_interval > 0.0 => {
+            let power = one.affine.retarded_power(strain.deformation, strain.rate);
+            power * one.affine.retardation(load_interval)
+        }
+        _ => 0.0,
     }
 }
 

@@ -239,6 +239,7 @@ impl Blocks {
         StepParams {
             gravity: self.gravity,
             damping: self.damping,
+            load_interval: self.load_interval,
             time: self.time,
             dt,
         }

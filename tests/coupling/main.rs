@@ -1,6 +1,7 @@
 //! Blocks and fluid together: conservation, reproducibility, skipped work and errors.
 
 mod conservation;
+mod deformable;
 mod density;
 mod external_load;
 mod faces;

@@ -152,6 +152,52 @@ fn a_load_squeezes_by_its_moment_and_an_initial_stress_lets_go() {
     assert_relative(strain.x_axis.x, pressure / young, 5e-3);
 }
 
+/// A cube under a pressure that begins suddenly. Its uniform strain, the stiffest mode, vibrates with ω = √(12 · 3K/ρ)/a and reaches
+/// twice the static pressure. With loads that are constant over 2/ω or more it has critical damping; over 0.2/ω a hundredth of it.
+/// A rotation is not damped.
+#[test]
+fn strains_that_the_interval_of_the_loads_does_not_resolve_are_damped() {
+    let (young, pressure) = (1e9, 2e6);
+    let block = Block {
+        spin: DVec3::Z,
+        ..Block::new("cube", cuboid(1.0, 1.0, 1.0), DVec3::ZERO).deformable()
+    };
+    let mut setup = elastic(setup(vec![block], joint(1e9, 30.0)), young);
+    setup.gravity = DVec3::ZERO;
+    let bulk = young / (3.0 * (1.0 - 2.0 * 0.25));
+    let omega = (12.0 * 3.0 * bulk / DENSITY).sqrt();
+    // ∫ over half a period of e^{−ζωt} in the peak: 1 + e^{−πζ/√(1−ζ²)}.
+    let light = 1.0 + (-std::f64::consts::PI * 0.01).exp();
+    for (interval, most) in [
+        (0.0, 2.0),
+        (0.2 / omega, light),
+        (2.0 / omega, 1.0),
+        (1.0, 1.0),
+    ] {
+        let mut cube = blocks(setup.clone());
+        cube.set_load_interval(interval);
+        let load = Load {
+            moment: DMat3::IDENTITY * -pressure,
+            ..Load::default()
+        };
+        cube.set_loads(&[load]).expect("one load a block");
+        let start = cube.ledger();
+        let mut peak: f64 = 0.0;
+        for n in 1..=200 {
+            run(&mut cube, 10.0 / omega * f64::from(n) / 200.0);
+            let stress = cube.stress(0).expect("it deforms");
+            peak = peak.max(-stress.z_axis.z / pressure);
+        }
+        println!("{interval:.1e}: {peak}, {most}");
+        assert_near(peak, most, 0.02);
+        assert!(error(&cube, start.balance()) < 5e-3, "{:?}", cube.ledger());
+        let lost = cube.ledger().mass_damping;
+        assert_eq!(lost > 0.0, interval > 0.0);
+        let spin = cube.spins().next().expect("one").length();
+        assert_relative(spin, 1.0, 1e-2);
+    }
+}
+
 /// A wall of two irregular courses, every second block rigid.
 fn wall() -> Setup {
     let mut list = vec![floor()];

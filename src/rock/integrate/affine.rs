@@ -115,6 +115,31 @@ impl Affine {
         (wrench.force / self.mass, (outer - stress) * self.inverse)
     }
 
+    /// Stress in the body per second of retardation at the deformation rate `rate`, F C:Ė, with Ė = ½(ḞᵀF + FᵀḞ): a Kelvin–Voigt
+    /// body with the retardation time β has the stress F (C:(E + βĖ) + σ₀), which does not damp rotations.
+    fn retarded_stress(&self, f: DMat3, rate: DMat3) -> DMat3 {
+        let half = f.transpose() * rate * 0.5;
+        f * self.elastic.stress(half + half.transpose())
+    }
+
+    /// F̈ by the viscous stress, per second of retardation, 1/s³.
+    pub fn retarding(&self, f: DMat3, rate: DMat3) -> DMat3 {
+        self.retarded_stress(f, rate) * -self.volume * self.inverse
+    }
+
+    /// Power that the viscous stress dissipates, per second of retardation, W/s.
+    pub fn retarded_power(&self, f: DMat3, rate: DMat3) -> f64 {
+        self.volume * inner(self.retarded_stress(f, rate), rate)
+    }
+
+    /// Retardation time of strains under a load that is constant over `interval` (s), s: zero for an interval of zero, and critical
+    /// damping of the stiffest mode once it is not resolved, ω `interval` > 2.
+    pub fn retardation(&self, interval: f64) -> f64 {
+        let omega = self.stiffest.sqrt();
+        let turned = 0.5 * omega * interval;
+        2.0 / omega * turned.powi(2).min(1.0)
+    }
+
     /// Upper bound of ω² of the stiffest mode at the deformation `f`, rad²/s²; exact without strain.
     ///
     /// The change of stress depends on FᵀδF, whose square is at most |F|² ≤ 1 + 2|E| times that of δF. The present

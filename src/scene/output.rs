@@ -203,6 +203,16 @@ pub struct History {
     pub every: Option<f64>,
 }
 
+impl History {
+    /// Name, without extension, of the files of the history with this number: `history`, `history_2`, ….
+    pub fn file_name(number: usize) -> String {
+        match number {
+            0 => "history".into(),
+            _ => format!("history_{}", number + 1),
+        }
+    }
+}
+
 /// An integral over the whole fluid, or over all blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

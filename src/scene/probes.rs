@@ -6,7 +6,7 @@ use toml::de::DeTable;
 
 use super::rules::{distinct, inside, interval, names, ordered, positive, refuse};
 use super::tagged::Kind;
-use super::{Axis, Direction, Field, Scene, WallModel};
+use super::{Axis, Direction, Field, History, Scene, WallModel};
 use crate::error::Result;
 
 /// Most points of a line.
@@ -211,7 +211,16 @@ impl Scene {
         for (index, probe) in self.probes.iter().enumerate() {
             self.check_probe(&format!("probes[{index}]"), probe)?;
         }
+        let histories = 0..self.output.histories.len();
+        let of_histories: Vec<String> = histories.map(History::file_name).collect();
         for (index, probe) in self.probes.iter().enumerate() {
+            // Some file systems are not case-sensitive.
+            if of_histories.contains(&probe.name.to_lowercase()) {
+                return refuse(
+                    format!("probes[{index}].name"),
+                    "output.histories write files of this name; give the probe another one",
+                );
+            }
             let owner = |other: &&Probe| self.tables_of(other).contains(&probe.name);
             if let Some(owner) = self.probes.iter().find(owner) {
                 return refuse(
@@ -222,7 +231,6 @@ impl Scene {
                     ),
                 );
             }
-            // Some file systems are not case-sensitive.
             if self.numerics.wall_model != WallModel::None
                 && probe.name.eq_ignore_ascii_case("walls")
             {

@@ -333,7 +333,7 @@ fn finite(
     Err(Error::scene(
         key.to_string(),
         format!(
-            "`{formula}` is {value} at ({x}, {y}, {z}) m, t = {t} s; it must be finite on the \
+            "`{formula}` is {value:e} at ({x}, {y}, {z}) m, t = {t} s; it must be finite, at most 3e38, on the \
              whole domain: guard divisions, roots and logarithms with max(…)"
         ),
     ))

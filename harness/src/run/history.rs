@@ -34,7 +34,7 @@ pub fn recorder(
         Track::new(label, unit, &[quantity.name()])
     };
     let table = TimeTable {
-        name: name(number),
+        name: scene::History::file_name(number),
         every: history.every.or(Some(usual)),
         columns: quantities.iter().map(|q| q.name().into()).collect(),
         coordinates: None,
@@ -47,19 +47,6 @@ pub fn recorder(
         let values = quantities.iter().map(|q| about(*q, &present).2);
         Ok(vec![values.collect()])
     })
-}
-
-/// Name of the files of a history: `history`, `history_2`, ….
-pub fn name(number: usize) -> String {
-    match number {
-        0 => "history".into(),
-        _ => format!("history_{}", number + 1),
-    }
-}
-
-/// Whether a probe of this name would overwrite a history.
-pub fn claims(histories: &[scene::History], probe: &str) -> bool {
-    (0..histories.len()).any(|number| name(number) == probe)
 }
 
 /// Sums over fluid, water and blocks; zero for those that a scene lacks, whose quantities its checks refuse.

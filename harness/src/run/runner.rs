@@ -44,15 +44,6 @@ impl Runner {
     ) -> Result<Self> {
         let mut recorders: Recorders = Vec::new();
         let scene = run.scene();
-        for probe in &scene.probes {
-            if history::claims(&scene.output.histories, &probe.name) {
-                return Err(Error::scene(
-                    format!("probes.{}", probe.name),
-                    "this file belongs to output.histories; give the probe another name",
-                )
-                .into());
-            }
-        }
         for number in 0..scene.output.histories.len() {
             recorders.push(history::recorder(run, folder, last, number)?);
         }

@@ -117,7 +117,7 @@ fn refusal(number: usize, axis: usize, min: f64, max: f64) -> Error {
         "both must be finite and within 2^100 m; look for what moved it there, such as too long a \
          time step"
     };
-    let message = format!("its box reaches from {min} to {max} m along {axis}: {reason}");
+    let message = format!("its box reaches from {min:e} to {max:e} m along {axis}: {reason}");
     Error::argument(format!("items[{number}]"), message)
 }
 

@@ -4,7 +4,7 @@ use super::super::history;
 use anyhow::Result;
 use riprap::{
     output::Table,
-    scene::{Quantity, Scene},
+    scene::{History, Quantity, Scene},
 };
 use serde::Serialize;
 use std::path::PathBuf;
@@ -62,7 +62,7 @@ impl Headline {
 pub fn tables(scene: &Scene) -> Vec<(String, &[Quantity])> {
     let histories = scene.output.histories.iter().enumerate();
     let histories =
-        histories.map(|(n, requested)| (history::name(n), requested.quantities.as_slice()));
+        histories.map(|(n, requested)| (History::file_name(n), requested.quantities.as_slice()));
     let probes = scene.probes.iter();
     let probes = probes.map(|probe| (probe.name.clone(), [].as_slice()));
     histories.chain(probes).collect()

@@ -98,7 +98,8 @@ fn collide_with_solid(
     let higher = with_law(higher_without_law, share_of_law);
     *h = s;
     let fluid = (psm.shares > Real(0.0)) & !solid(cell);
-    let clear = (e == Real(0.0)) & !solid(cell);
+    // A plane that fills less than half of a cell leaves its centre in the fluid.
+    let clear = (e < Real(0.5)) & (psm.shares == Real(0.0)) & !solid(cell);
     let beta = select(Real(0.0), weight / max(psm.shares, Real(1e-30)), fluid);
     // Values beyond the domain may be NaN; they must not count.
     let a = factor * rho;

@@ -35,8 +35,11 @@ fn add_layer_cell(job: FaceJob, tile: Tile, local: u32) {
     }
     let at = local * LANES_OF_ELEMENT + tile.lane;
     // The cell may contain another block or a wall.
-    let fluid = read_psm(PLANE_SUM, tile.slot, at) <= 0.0 && read_psm(PLANE_BETA, tile.slot, at) != 0.0;
-    if (!fluid && hidden == CUT) {
+    let others = read_psm(PLANE_SUM, tile.slot, at);
+    let fluid = others <= 0.0 && read_psm(PLANE_BETA, tile.slot, at) != 0.0;
+    // The centre of a cell that another solid fills in part may be in the fluid: the cell has no pressure, but is wet.
+    let mostly_open = others > 0.0 && decode_sum(others).fraction < 0.5;
+    if (!fluid && (hidden == CUT || mostly_open)) {
         return;
     }
     sums[FACE_LOAD - 1u] += 1.0;

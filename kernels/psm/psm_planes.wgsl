@@ -5,8 +5,8 @@
 const PLANE_SUM = 0u;
 // Mean velocity of the blocks (3).
 const PLANE_VELOCITY = 1u;
-// For the forces on the blocks: beta = B / sum, beta a and beta G (3). In cells that contain only fluid these are 1, rho - 1 and
-// the velocity of the fluid.
+// For the forces on the blocks: beta = B / sum, beta a and beta G (3). In cells without a block, of which solids at
+// rest fill less than half, these are 1, rho - 1 and the velocity of the fluid.
 const PLANE_BETA = 4u;
 const PLANE_A = 5u;
 const PLANE_G = 6u;

@@ -150,8 +150,8 @@ pub fn reduce_blocks() -> Program {
 }
 
 /// `reduce_faces`: [`CellMapping::groups`] workgroups. For each face it sums over [`super::FACE_LAYERS`] layers of cells along it, each one cell thick; the first
-/// begins where cells no longer intersect its plane. A cell is fluid unless a wall, a solid or another block fills part of it; it is excluded if another part of
-/// the same block lies over the face or fills part of the cell. The state is that at the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
+/// begins where cells no longer intersect its plane. A cell is fluid unless a wall, half of a solid or another block fills it; it is excluded if another part of
+/// the same block lies over the face or fills part of the cell, or if another block fills less than half of it. The state is that at the beginning of the step. Binds `jobs` ([`super::FaceJob`], those of
 /// a layer of a face in sequence), `tiles`, `parts`, `faces`, `motions`, `solid_fractions`, `psm_planes_0`, and
 /// `face_partials`, [`super::FACE_LOAD`] numbers per job; in addition to [`constants`] it takes `VISCOSITY`. Spheres have no
 /// faces.

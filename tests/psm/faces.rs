@@ -157,7 +157,7 @@ impl Case {
         });
         let at = |plane| f64::from(self.saturation[self.tiling.scalar(tile, plane, local)]);
         if at(0) > 0.0 || at(4) == 0.0 {
-            if cut {
+            if cut || (at(0) > 0.0 && at(0) < 0.5) {
                 return None;
             }
             let mut dry = [(0.0, 0.0); FACE_LOAD];

@@ -211,7 +211,8 @@ impl Subject {
         for (slot, local, lane, cell) in places(grid, bricks) {
             let at = |plane| f64::from(found[place(grid, slot, plane, local, lane)]);
             let solid = self.twin.solid_at(cell);
-            if !self.twin.domain.solid[cell] && solid.fraction == 0.0 {
+            let clear = solid.shares == 0.0 && solid.fraction < 0.5;
+            if !self.twin.domain.solid[cell] && clear {
                 let (rho, u) = self.twin.macroscopic(cell);
                 let there = [1.0, rho - 1.0, u[0], u[1], u[2]];
                 for (plane, there) in (4..).zip(there) {

@@ -156,6 +156,10 @@ impl FaceLoad {
 /// represent the same area.
 const UNLIKE: f64 = 0.25;
 
+/// Least distance of the mean heights of the two layers, cells: few cells of a face at an angle to the grid may be closer, and do
+/// not determine the change across the layers.
+const APART: f64 = 0.5;
+
 /// Means over the cells with fluid in a layer along a face.
 struct Layer<'a> {
     sums: &'a [f32],
@@ -186,7 +190,10 @@ impl<'a> Layer<'a> {
     /// pressures that are linear in the height and for quadratic velocities.
     fn is_like(&self, far: &Self) -> bool {
         let difference = (far.cells - self.cells).abs();
-        self.wet == 1.0 && far.wet == 1.0 && difference <= UNLIKE * self.cells
+        self.wet == 1.0
+            && far.wet == 1.0
+            && difference <= UNLIKE * self.cells
+            && far.height() - self.height() >= APART
     }
 }
 

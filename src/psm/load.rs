@@ -57,8 +57,8 @@ impl SolidCells {
         }
     }
 
-    /// The sums, [`FACE_LOAD`] f32 for each of [`FACE_LAYERS`] layers of cells along each face of the blocks that request them: see [`SolidCells::face_loads`]. `None` unless
-    /// requested; [`SolidCells::place`] replaces the buffer if it has to grow.
+    /// The sums, [`FACE_LOAD`] f32 for each of [`FACE_LAYERS`] layers of cells along each face of the blocks that request them: see
+    /// [`SolidCells::face_loads`]. `None` unless requested; [`SolidCells::place`] replaces the buffer if it has to grow.
     pub fn face_sums(&self) -> Option<&wgpu::Buffer> {
         self.face_sums.as_ref().map(FaceSums::loads)
     }

@@ -265,13 +265,6 @@ fn a_checkpoint_that_does_not_fit_is_refused() {
 }
 
 #[test]
-fn a_probe_cannot_take_the_name_of_the_history() {
-    let text = STEP.replace("\"along\"", "\"history\"");
-    let told = refusal(&args(&folder("run_name"), &text, "out"));
-    assert_contains(told, &["probes.history"]);
-}
-
-#[test]
 fn wrong_input_ends_the_program_with_2_and_one_line() {
     let folder = folder("run_input");
     args(

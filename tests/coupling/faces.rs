@@ -10,11 +10,11 @@ const GRAVITY: f64 = 0.01;
 /// A closed tank of 24 cells (12 m) along an edge with heavy water at rest and a fixed box of 8 × 6 × 5 m.
 fn tank(position: [f64; 3], angle: f64) -> World {
     let shape = "kind = \"box\"\nsize = [8, 6, 5]";
-    tank_of(24, shape, position, angle)
+    tank_of(24, shape, position, angle, "")
 }
 
-/// The same tank with `cells` cells along an edge, and a fixed block of the given shape.
-fn tank_of(cells: u32, shape: &str, position: [f64; 3], angle: f64) -> World {
+/// The same tank with `cells` cells along an edge, a fixed block of the given shape, and `more` bodies.
+fn tank_of(cells: u32, shape: &str, position: [f64; 3], angle: f64, more: &str) -> World {
     let depth = 0.5 * f64::from(cells);
     World::new(&format!(
         r#"{}{}
@@ -36,7 +36,8 @@ fn tank_of(cells: u32, shape: &str, position: [f64; 3], angle: f64) -> World {
         {shape}
         position = {position:?}
         rotation = {{ axis = [1, 2, 3], angle = {angle} }}
-        motion = "fixed""#,
+        motion = "fixed"
+        {more}"#,
         accelerated_fluid([cells; 3], 0.1, [0.0, 0.0, -GRAVITY]),
         material("rock", 2650.0)
     ))
@@ -94,7 +95,7 @@ fn compounds_in_still_water_feel_archimedes_push_on_their_faces() {
     for (name, on_top, volume, seam) in [("L", corner, 100.0, 10.0), ("T", middle, 90.0, 7.5)] {
         let shape = format!("kind = \"compound\"\nparts = [{base}, {on_top}]");
         for angle in [0.0, degrees] {
-            let mut world = tank_of(24, &shape, [6.3, 6.0, 5.0], angle);
+            let mut world = tank_of(24, &shape, [6.3, 6.0, 5.0], angle, "");
             world.advance(100);
             let push = DENSITY * GRAVITY * volume;
             let (mut force, mut moment, mut wet) = (DVec3::ZERO, DVec3::ZERO, 0.0);
@@ -200,6 +201,37 @@ fn a_face_on_the_ground_is_dry() {
         } else {
             let there = DENSITY * GRAVITY * (12.0 - load.face.centre.z);
             assert_relative(load.pressure(), there, 1e-5);
+        }
+    }
+}
+
+/// The surface of a bed lies inside a cell, a fifth above its bottom: the cells in front of the sides of a block on it are wet, and
+/// the sides have the pressure of still water at their depth.
+#[test]
+fn sides_of_a_block_on_a_bed_inside_a_cell_are_wet() {
+    let solid = r#"[[solids]]
+        kind = "box"
+        min = [-1, -1, -1]
+        max = [13, 13, 1.1]
+        surface = "exact""#;
+    let block = r#"[[blocks]]
+        kind = "box"
+        size = [12, 12, 1.1]
+        position = [6, 6, 0.55]
+        motion = "fixed""#;
+    let shape = "kind = \"box\"\nsize = [8, 6, 5]";
+    for bed in [solid, block] {
+        let mut world = tank_of(24, shape, [6.0, 6.0, 3.6], 0.0, bed);
+        world.advance(200);
+        let sides = faces(&world)
+            .iter()
+            .filter(|load| load.face.normal.z > -0.5);
+        for load in sides {
+            let there = DENSITY * GRAVITY * (12.0 - load.face.centre.z);
+            let error = load.pressure() / there - 1.0;
+            println!("{}: {error:.1e}", load.face.normal);
+            assert_eq!(load.wetted, load.face.area);
+            assert!(error.abs() < 1e-3, "{}: {error}", load.face.normal);
         }
     }
 }

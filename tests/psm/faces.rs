@@ -57,7 +57,7 @@ impl Case {
                 let mark = if exact || any > 0.2 {
                     empty
                 } else {
-                    any as f32
+                    5.0 * any as f32
                 };
                 saturation[tiling.scalar(tile, 0, local)] = mark;
                 let fluid = exact || any > 0.4;

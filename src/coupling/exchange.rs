@@ -4,8 +4,7 @@
 use super::{FluidLoad, Rock};
 use crate::{
     Error, Result,
-    geometry::{Form, Pose, Shape},
-    psm::{area_of, corners},
+    geometry::{Form, Pose, Shape, area_of, corners},
     rock::{Blocks, Motion, integrate::Principal},
     scene::Scene,
 };

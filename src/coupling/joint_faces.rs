@@ -2,8 +2,7 @@
 
 use super::Coupled;
 use crate::{
-    geometry::{Form, HalfSpace, Load, Part, Pose, Shape, outer},
-    psm::{area_of, corners},
+    geometry::{Form, HalfSpace, Load, Part, Pose, Shape, area_of, corners, outer},
     rock::{Period, contact::Placed},
 };
 use glam::DVec3;

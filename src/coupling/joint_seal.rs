@@ -8,8 +8,7 @@ use super::{
     kernel_deficit::KernelDeficit,
 };
 use crate::{
-    geometry::{Form, Load, Pose, Shape, outer},
-    psm::{area_of, corners},
+    geometry::{Form, Load, Pose, Shape, area_of, corners, outer},
     rock::{Period, contact::Placed},
     sph::{Scheme, Setup, Side},
 };

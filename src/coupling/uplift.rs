@@ -20,8 +20,8 @@ use super::{
     pressure_plane::{AreaMoments, CutLine, PressurePlane, PressureSample, fit, limited},
 };
 use crate::{
-    geometry::{Form, Part, Pose, Shape, min_max, outer},
-    psm::{FaceLoad, corners},
+    geometry::{Form, Part, Pose, Shape, corners, min_max, outer},
+    psm::FaceLoad,
     rock::contact::Placed,
 };
 use glam::{DMat3, DVec3};
@@ -351,7 +351,7 @@ fn faces_at_rim<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{geometry::Polyhedron, psm::PlaneFace};
+    use crate::geometry::{PlaneFace, Polyhedron};
     use glam::{DQuat, Vec3Swizzles};
 
     const CELL: f64 = 0.125;

@@ -27,6 +27,7 @@ mod mesh;
 #[cfg(feature = "mesh")]
 mod mesh_file;
 mod placed;
+mod plane_face;
 mod polyhedron;
 mod pose;
 #[cfg(feature = "rock")]
@@ -42,6 +43,7 @@ pub use joint_set::{Compass, JointSet, Persistence, Scatter};
 pub use mesh::TriangleMesh;
 pub use placed::Placed;
 pub(crate) use placed::{bounding_box, clip, min_max};
+pub use plane_face::{PlaneFace, Window, area_of, corners, plane_faces};
 pub use polyhedron::{HalfSpace, Polyhedron};
 pub use pose::{Load, Pose, skew};
 pub(crate) use pose::{axial, inner, outer};

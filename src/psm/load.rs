@@ -1,12 +1,9 @@
 //! The sums of the device for blocks in a fluid, and the loads that follow from them.
 
-use super::{
-    FACE_LAYERS, FACE_LOAD, FaceLoad, Frame, PlaneFace, SolidCells, WRENCH, Window, corners,
-    face_load::plane_faces, face_sums::FaceSums,
-};
+use super::{FACE_LAYERS, FACE_LOAD, FaceLoad, Frame, SolidCells, WRENCH, face_sums::FaceSums};
 use crate::{
     Error, Result,
-    geometry::{Form, Load, Placed},
+    geometry::{Form, Load, Placed, PlaneFace, Window, corners, plane_faces},
 };
 use glam::DVec3;
 

@@ -67,7 +67,7 @@ mod solid_cells;
 mod tables;
 mod tiles;
 
-pub use face_load::{FaceLoad, PlaneFace, Window, area_of, corners, plane_faces};
+pub use face_load::FaceLoad;
 pub use frame::{Frame, spin};
 pub use near_cells::NearCell;
 pub(crate) use near_cells::{near_cells, outline};

@@ -2,8 +2,7 @@
 
 use super::{Base, Plane, Sliding, TILT, Wrench, sliding, toppling, uplift};
 use crate::{
-    geometry::{Form, Part, Placed, Pose, Shape, clip},
-    psm::{area_of, corners},
+    geometry::{Form, Part, Placed, Pose, Shape, area_of, clip, corners},
     rock::{Blocks, ContactPoint, Motion, Setup},
 };
 use glam::DVec3;

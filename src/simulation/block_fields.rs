@@ -2,9 +2,9 @@
 
 use crate::{
     coupling::{Coupled, FluidLoad},
-    geometry::{Form, Pose},
+    geometry::{Form, Pose, corners},
     output::{Array, Cloud, Polyhedra, Surface},
-    psm::{FaceLoad, corners},
+    psm::FaceLoad,
     rock::{Block, Blocks, ContactPoint, Motion},
 };
 use glam::{DMat3, DVec3};

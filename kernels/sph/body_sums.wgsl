@@ -19,6 +19,15 @@ fn add_force(f: vec3<f32>, r: vec3<f32>) {
     moment[2] += f.z * r;
 }
 
+// Replaces the symmetric part of the moment.
+fn replace_symmetric_part(part: mat3x3<f32>) {
+    let all = mat3x3(moment[0], moment[1], moment[2]);
+    let torque = 0.5 * (all - transpose(all));
+    for (var i = 0u; i < 3u; i++) {
+        moment[i] = torque[i] + part[i];
+    }
+}
+
 fn is_loaded(body: u32) -> bool {
     return body < arrayLength(&loads) / LOAD_LEN;
 }

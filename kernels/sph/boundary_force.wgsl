@@ -4,7 +4,7 @@
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(2) var<storage, read> boundary: array<Particle>;
-// By the index of the boundary particle; those of bodies with loads come first.
+// Forces and pressures by the index of the boundary particle; those of bodies with loads come first.
 @group(0) @binding(3) var<storage, read_write> forces: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> clock: Clock;
 
@@ -48,5 +48,5 @@ fn boundary_force(
         density = 1.0 + excess_of(here.excess);
         visit_fluid_neighbours(n, here.at);
     }
-    forces[here.id] = vec4(force, 0.0);
+    forces[here.id] = vec4(force, here.excess);
 }

@@ -80,13 +80,14 @@ pub(crate) async fn couple(
     let solids = solids.map(|(block, request)| SolidBlock {
         shape: block.shape.clone(),
         loaded: block.motion != Motion::Fixed || request.load,
-        faces: request.faces,
+        faces: request.faces || block.deformable.is_some(),
     });
     let solids = solids.collect();
     let period = rock.blocks.period();
     let mut coupling = LatticeCoupling::new(device, lattice, (scene, units), solids, period)?;
     coupling.gaps = gaps;
     coupling.face_probes = requests.iter().map(|request| request.faces).collect();
+    coupling.deformable = blocks.iter().map(|b| b.deformable.is_some()).collect();
     let coupled = Coupled::new(&rock, &coupling);
     coupling.initial_inlet_blocks = coupled.blocks_at_inlets(scene, units);
     Ok((rock, coupling))

@@ -8,7 +8,7 @@ use crate::{
     Error, Result,
     error::refused,
     formula::Formula,
-    geometry::{Load, Pose},
+    geometry::{Load, Pose, outer},
     gpu::{
         readback,
         timer::{Phases, begin_pass},
@@ -19,7 +19,7 @@ use crate::{
     scene::{ProbePlace, Scene},
     units::Units,
 };
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::time::Instant;
 
 /// The cells of blocks in a lattice, and the loads of the fluid on these blocks.
@@ -42,6 +42,8 @@ pub(crate) struct LatticeCoupling {
     pub(super) gaps: Vec<Gap>,
     /// Whether a probe requests the loads on the faces of each block in the fluid.
     pub(super) face_probes: Vec<bool>,
+    /// Whether each block in the fluid is deformable.
+    pub(super) deformable: Vec<bool>,
     /// Blocks in inflow cells at the start.
     pub(super) initial_inlet_blocks: Vec<BlockAtInlet>,
 }
@@ -75,6 +77,7 @@ impl LatticeCoupling {
             placed: None,
             gaps: Vec::new(),
             face_probes: Vec::new(),
+            deformable: Vec::new(),
             initial_inlet_blocks: Vec::new(),
         })
     }
@@ -141,10 +144,11 @@ impl LatticeCoupling {
             || self.average && self.exchanges_at(interval, step + 1, last)
     }
 
-    /// Whether the exchange of the step `step` may be the last one of an advance that ends with the step `last`. The loads on
-    /// faces move no block and are needed only then: output reads those of the last exchange.
-    pub fn may_be_last(interval: ExchangeInterval, step: u64, last: u64) -> bool {
+    /// Whether the exchange of the step `step` in an advance that ends with the step `last` needs the loads on faces: always
+    /// for deformable blocks; otherwise if it may be the last one, because output reads those of the last exchange.
+    pub fn needs_faces(&self, interval: ExchangeInterval, step: u64, last: u64) -> bool {
         match interval {
+            _ if self.deformable.contains(&true) => true,
             ExchangeInterval::Static => true,
             ExchangeInterval::Asleep(steps) | ExchangeInterval::Awake { next: steps, .. } => {
                 step + steps > last
@@ -192,14 +196,22 @@ impl LatticeCoupling {
         self.read_faces().await
     }
 
-    /// Returns the mean loads on the blocks since the last exchange, and starts a new average.
+    /// Returns the mean loads on the blocks since the last exchange, and starts a new average. The cells of a block also contain
+    /// the pressure of the fluid inside it, which strains no rock: deformable blocks have the stress of the loads on their faces.
     pub fn exchange(&mut self) -> Vec<FluidLoad> {
         let flows = self.load_average.take().unwrap_or_default();
-        let load = |flow: Load| FluidLoad {
-            flow,
-            buoyancy: self.ambient.buoyancy(&flow),
+        let load = |(block, mut flow): (usize, Load)| {
+            if self.deformable[block]
+                && let (Some(faces), Some(poses)) = (self.face_loads.get(block), &self.placed)
+            {
+                flow.moment = with_strain_part(flow.moment, faces, poses[block].centre);
+            }
+            FluidLoad {
+                flow,
+                buoyancy: self.ambient.buoyancy(&flow),
+            }
         };
-        flows.into_iter().map(load).collect()
+        flows.into_iter().enumerate().map(load).collect()
     }
 
     /// Records the sums of the loads on single faces in the step `step`, and their copy to the host; nothing unless a
@@ -284,6 +296,15 @@ impl LatticeCoupling {
         self.cells.tile(&state.tiled);
         self.placed = None;
     }
+}
+
+/// The skew part of Σ f ⊗ r over the cells of a block, which is its torque, with the symmetric part over its faces.
+fn with_strain_part(cells: DMat3, faces: &[FaceLoad], centre: DVec3) -> DMat3 {
+    let at_face = |load: &FaceLoad| outer(load.force, load.acts_at() - centre);
+    let faces = faces
+        .iter()
+        .fold(DMat3::ZERO, |sum, load| sum + at_face(load));
+    0.5 * (cells - cells.transpose() + faces + faces.transpose())
 }
 
 /// The state of the coupling of blocks to a lattice.

@@ -389,12 +389,12 @@ impl Fluid for LatticeFluid {
         }
         loop {
             let next = self.lattice.step() + 1;
-            if self
+            let exchanging = self
                 .coupling
                 .as_ref()
-                .is_some_and(|coupling| coupling.exchanges_at(interval, next, last))
-            {
-                let faces = LatticeCoupling::may_be_last(interval, next, last);
+                .filter(|coupling| coupling.exchanges_at(interval, next, last));
+            if let Some(coupling) = exchanging {
+                let faces = coupling.needs_faces(interval, next, last);
                 return self.exchange(encoder, interval, faces).await;
             }
             self.record_psm(&mut encoder)?;

@@ -7,11 +7,11 @@ use super::{
 };
 use crate::{
     Error, Result,
-    geometry::Pose,
+    geometry::{Pose, outer, plane_faces},
     gpu::{bins::WORKGROUP, buffers::uniform, kernel::Kernel},
     rock::{Block, Motion},
 };
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 /// The bodies of `blocks` with their `boundary` particles ([`boundary_particles`](super::boundary_particles)), none of
 /// them with free slip. `is_probed` selects the blocks whose loads are measured.
@@ -29,6 +29,7 @@ pub fn bodies(
     }
     let bodies = blocks.iter().zip(boundary).zip(solids);
     let bodies = bodies.map(|((block, boundary), solids)| Body {
+        strain_areas: strain_areas(block, &boundary, lattice.spacing),
         boundary,
         solids: solids
             .into_iter()
@@ -41,6 +42,30 @@ pub fn bodies(
         free_slip: false,
     });
     bodies.collect()
+}
+
+/// [`Body::strain_areas`] of a block with these `boundary` particles (m, in its frame). The particles in the first layer of a face
+/// share its area equally.
+fn strain_areas(block: &Block, boundary: &[DVec3], spacing: f64) -> Vec<DMat3> {
+    if block.deformable.is_none() {
+        return Vec::new();
+    }
+    let mut areas = vec![DMat3::ZERO; boundary.len()];
+    let rest = Pose::rigid(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+    let parts = block.shape.parts().iter().enumerate();
+    for face in parts.flat_map(|(number, part)| plane_faces(number, part, &rest)) {
+        let depth = |x: DVec3| face.normal.dot(face.centre - x);
+        let first = boundary.iter().enumerate();
+        let first: Vec<_> = first.filter(|(_, x)| depth(**x) < spacing).collect();
+        let count = first.len() as f64;
+        let foot = |x: DVec3| x + depth(x) * face.normal;
+        let mean = first.iter().map(|(_, x)| foot(**x)).sum::<DVec3>() / count;
+        for (index, x) in first {
+            let dyad = outer(face.normal, foot(*x) - mean + face.centre) * (face.area / count);
+            areas[index] += (dyad + dyad.transpose()) * 0.5;
+        }
+    }
+    areas
 }
 
 /// Transfers the boundary particles that a fixed block with a load probe (`is_probed`) has inside adjacent walls to a

@@ -236,6 +236,11 @@ impl CellGrid {
         }
     }
 
+    /// Converts A n ⊗ r from m³ to device units, in which it times a pressure is a moment.
+    pub(super) fn strain_area(&self, area: DMat3) -> DMat3 {
+        area * (self.unit_pressure / (self.unit_force * self.spacing))
+    }
+
     /// Converts a work from device units to J.
     pub(super) fn work(&self, work: f32) -> f64 {
         f64::from(work) * self.unit_force * self.spacing

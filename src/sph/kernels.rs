@@ -63,6 +63,7 @@ pub(super) struct Kernels {
     pub fluid: SortedParticles,
     pub boundary: SortedParticles,
     pub reference_positions: wgpu::Buffer,
+    pub strain_areas: wgpu::Buffer,
     pub motions: wgpu::Buffer,
     pub loads: wgpu::Buffer,
     pub clock: wgpu::Buffer,
@@ -107,6 +108,8 @@ impl Kernels {
             counts.boundary,
             size_of::<ReferencePosition>(),
         )?;
+        let strained = counts.loaded_boundary * u32::from(setup.deforms());
+        let strain_areas = buffer("areas of boundary particles", strained, 48)?;
         let motions = buffer("motions of bodies", counts.bodies, size_of::<BodyMotion>())?;
         let forces = buffer("forces on boundary particles", counts.loaded_boundary, 16)?;
         let loads = buffer("loads of bodies", counts.loaded_bodies, 4 * LOAD_LEN)?;
@@ -140,6 +143,7 @@ impl Kernels {
             ("boundary", &boundary.sorted),
             ("boundary_starts", &boundary.starts),
             ("reference_positions", &reference_positions),
+            ("strain_areas", &strain_areas),
             ("motions", &motions),
             ("clock", &clock),
             ("new_velocities", &new_velocities),
@@ -231,6 +235,7 @@ impl Kernels {
             fluid,
             boundary,
             reference_positions,
+            strain_areas,
             motions,
             loads,
             clock,

@@ -158,6 +158,7 @@ pub fn constants(setup: &Setup, grid: &CellGrid) -> Vec<(&'static str, f64)> {
         ("VISCOSITY", viscosity),
         ("PENALTY_STIFFNESS", stiffness.powi(2)),
         ("PENALTY_DAMPING", PENALTY_FREQUENCY),
+        ("DEFORMS", f64::from(u8::from(setup.deforms()))),
         ("KERNEL_SCALE", scale),
         ("GRAVITY_X", gravity.x),
         ("GRAVITY_Y", gravity.y),

@@ -4,7 +4,7 @@
 
 use super::Solid;
 use crate::{Error, Result};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use std::f64::consts::PI;
 
 /// Largest Courant number at which water in tanks stays stable for every smoothing length.
@@ -66,6 +66,9 @@ pub struct Body {
     pub accelerates: bool,
     /// Whether viscous water slips along it.
     pub free_slip: bool,
+    /// The symmetric part of Σ A n ⊗ r of each of its boundary particles, from the faces on which it stands for the area A, m³:
+    /// the strain of a deformable body follows from their pressures. Empty for a rigid body.
+    pub strain_areas: Vec<DMat3>,
 }
 
 /// Domain, fluid properties and numerical parameters, SI. Create it with [`Setup::tank`], then change fields.
@@ -304,6 +307,13 @@ impl Setup {
     }
 }
 
+impl Setup {
+    /// Whether a body deforms.
+    pub(super) fn deforms(&self) -> bool {
+        self.bodies.iter().any(|body| !body.strain_areas.is_empty())
+    }
+}
+
 impl Body {
     /// Checks that all coordinates are finite in device units.
     fn check(&self, key: &str, spacing: f64) -> Result<()> {
@@ -314,6 +324,14 @@ impl Body {
         let is_finite = |x: DVec3| (x / spacing).as_vec3().is_finite();
         if let Some(bad) = self.boundary.iter().position(|x| !is_finite(*x)) {
             return refuse("boundary", bad);
+        }
+        if ![0, self.boundary.len()].contains(&self.strain_areas.len()) {
+            let message = format!(
+                "has {} entries for {} boundary particles; give one for each, or none",
+                self.strain_areas.len(),
+                self.boundary.len()
+            );
+            return Err(Error::argument(format!("{key}.strain_areas"), message));
         }
         let is_solid_finite = |solid: &Solid| match solid {
             Solid::Sphere { centre, radius } => is_finite(*centre) && is_finite(DVec3::X * *radius),

@@ -94,6 +94,8 @@ impl SphSolver {
         let mut rank = vec![0; order.len()];
         let mut first = vec![0];
         let (mut reference_positions, mut loaded_boundary) = (Vec::new(), 0);
+        let deforms = setup.deforms();
+        let mut strain_areas = Vec::new();
         for (place, &body) in order.iter().enumerate() {
             rank[body] = place;
             let boundary = &setup.bodies[body].boundary;
@@ -104,6 +106,11 @@ impl SphSolver {
             first.push(particle_count(reference_positions.len())?);
             if setup.bodies[body].loaded {
                 loaded_boundary = first[place + 1];
+                if deforms {
+                    let areas = &setup.bodies[body].strain_areas;
+                    strain_areas.extend(areas.iter().map(|area| columns(grid.strain_area(*area))));
+                    strain_areas.resize(loaded_boundary as usize, columns(DMat3::ZERO));
+                }
             }
         }
         let counts = Counts {
@@ -160,6 +167,8 @@ impl SphSolver {
             0,
             bytemuck::cast_slice(&reference_positions),
         );
+        let areas = bytemuck::cast_slice(&strain_areas);
+        queue.write_buffer(&kernels.strain_areas, 0, areas);
         if reference_positions.is_empty() {
             let buffer = &kernels.boundary.unsorted;
             queue.write_buffer(buffer, 0, bytemuck::bytes_of(&outside));

@@ -78,6 +78,12 @@ fn solids(plane: bool) -> Vec<Solid> {
     vec![half(-1.0), half(1.0), sphere(0.1)]
 }
 
+/// A symmetric matrix for the boundary particle at `x`, m³.
+fn strain_area(x: &DVec3) -> DMat3 {
+    let v = *x + DVec3::new(0.1, 0.2, -0.05);
+    DMat3::from_cols(v * v.x, v * v.y, v * v.z) * 0.1
+}
+
 fn check_with(setup: Setup) {
     let plane = setup.plane;
     let mut setup = setup;
@@ -112,6 +118,8 @@ fn check_with(setup: Setup) {
             solids: solids(plane),
             moves: plane,
             loaded: true,
+            // The body deforms in space.
+            strain_areas: block.iter().filter(|_| !plane).map(strain_area).collect(),
             ..Body::default()
         },
     ];
@@ -225,7 +233,15 @@ fn check_with(setup: Setup) {
     let levers: Vec<DVec3> = block.iter().map(|x| pose.deformation * *x).collect();
     let width = if plane { setup.size.y } else { 1.0 };
     let (force, moment) = wrench(&exact.forces[first..], &levers);
-    let (force, moment) = (width * force, moment * width);
+    let (force, mut moment) = (width * force, moment * width);
+    if !plane {
+        let strain = block.iter().zip(&boundary[first..]).map(|(x, particle)| {
+            let area = pose.deformation * strain_area(x) * pose.deformation.transpose();
+            area * -twin.wall_pressure(&water, particle)
+        });
+        let strain = strain.fold(DMat3::ZERO, |sum, part| sum + part);
+        moment = strain + (moment - moment.transpose()) * 0.5;
+    }
     let load = done.loads[1];
     println!(
         "dv {dv:.2e} of {:.2e}, drho {drho:.2e} of {:.2e}, dx {dx:.2e}, limit {limit:.6e} {:.6e}, force {} {force}",

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     Result,
-    geometry::{Form, Shape, min_max},
+    geometry::{Form, min_max},
     rock::{Block, Blocks, Motion, broadphase::HostBroadphase, formula_values},
     scene::{
         Advice, ProbePlace, Scene, Warning,
@@ -55,9 +55,10 @@ impl Coupled<'_> {
         let cell = scene.domain.cell;
         let setup = &self.setup().setup;
         let blocks = setup.blocks[..self.in_fluid()].iter();
+        let domain = self.domain_size();
         let widths = blocks
             .clone()
-            .map(|block| (block.name.clone(), width(&block.shape) / cell));
+            .map(|block| (block.name.clone(), width(block, domain) / cell));
         if let Some(thin) = Ranked::below(MIN_CELLS_ACROSS - WIDTH_TOLERANCE, widths) {
             warn(
                 "domain.cell",
@@ -102,12 +103,17 @@ impl Coupled<'_> {
     }
 
     /// Width of the narrowest block in the fluid, m: the smallest distance between two parallel planes that enclose it,
-    /// one of them along a face. `None` without blocks.
+    /// one of them along a face. The length of a block that spans the domain is none. `None` without blocks.
     pub fn narrowest(&self) -> Option<f64> {
         let blocks = self.setup().setup.blocks[..self.in_fluid()].iter();
-        blocks
-            .map(|block| width(&block.shape))
-            .min_by(f64::total_cmp)
+        let widths = blocks.map(|block| width(block, self.domain_size()));
+        widths.filter(|w| w.is_finite()).min_by(f64::total_cmp)
+    }
+
+    /// Edges of the domain, m.
+    fn domain_size(&self) -> DVec3 {
+        let (cells, _) = self.solid_cells().domain();
+        self.solid_cells().frame().units.cell * DVec3::from_array(cells.map(f64::from))
     }
 
     /// The narrowest open gap between a block in the fluid and another block, a wall, or a periodic image; `None` if all are
@@ -144,15 +150,23 @@ impl Coupled<'_> {
     }
 }
 
-/// Smallest distance between two parallel planes that enclose a shape, one of them along a face, m.
-fn width(shape: &Shape) -> f64 {
+/// Fraction of the domain from which a block spans it.
+const SPANS: f64 = 0.99;
+
+/// Smallest distance between two parallel planes that enclose a block, one of them along a face, m; not along an axis along which
+/// the block spans the domain.
+fn width(block: &Block, domain: DVec3) -> f64 {
+    let shape = &block.shape;
     let faces = shape.parts().iter().flat_map(|part| match &part.form {
         Form::Sphere { .. } => vec![DVec3::X, DVec3::Y, DVec3::Z],
         Form::Convex(shape) => shape.faces().iter().map(|face| face.normal).collect(),
     });
-    let widths = faces.map(|n| {
+    let widths = faces.filter_map(|n| {
         let [low, high] = shape.extent(n);
-        high - low
+        let world = block.rotation * n;
+        let axis = (0..3).find(|&axis| world[axis].abs() > 1.0 - 1e-9);
+        let spans = axis.is_some_and(|axis| high - low >= SPANS * domain[axis]);
+        (!spans).then_some(high - low)
     });
     widths.fold(f64::INFINITY, f64::min)
 }
@@ -433,14 +447,18 @@ fn check_probes(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Polyhedron;
+    use crate::geometry::{Polyhedron, Shape};
 
     #[test]
     fn width_of_a_plate_a_sphere_and_a_tetrahedron() {
+        let width_in =
+            |shape: &Shape, domain| width(&Block::new("block", shape.clone(), DVec3::ZERO), domain);
+        let width = |shape: &Shape| width_in(shape, DVec3::splat(4.0));
         let plate: Shape = Polyhedron::cuboid(DVec3::new(3.0, 0.2, 1.0))
             .unwrap()
             .into();
         assert!((width(&plate) - 0.2).abs() < 1e-12);
+        assert!((width_in(&plate, DVec3::new(4.0, 0.2, 4.0)) - 1.0).abs() < 1e-12);
         assert!((width(&Shape::sphere(0.7).unwrap()) - 1.4).abs() < 1e-12);
         // Between a face and the corner opposite to it: edge · √(2/3).
         let tetrahedron: Shape = Polyhedron::tetrahedron(1.0).unwrap().into();

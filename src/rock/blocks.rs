@@ -158,7 +158,7 @@ impl Blocks {
         };
         blocks.place();
         if let Some(period) = setup.period {
-            blocks.periods = Some(blocks.periods_of(period)?);
+            blocks.repeat(period, &setup.blocks)?;
         }
         Ok(blocks)
     }

@@ -113,6 +113,18 @@ impl Body {
         }
     }
 
+    /// Replaces the inertia by that `of` the shape at a density of one, m⁵, and sets the angular momentum of `state`.
+    pub fn hold(&mut self, of: Principal, state: &mut State) {
+        self.inertia = of.scaled(self.mass / self.shape.volume());
+        state.momentum = self.momentum_of(state);
+    }
+
+    /// Angular momentum of a block with the spin of `state`, world, kg m²/s.
+    fn momentum_of(&self, state: &State) -> DVec3 {
+        let frame = state.rotation * self.inertia.axes;
+        frame * ((frame.conjugate() * state.spin) * self.inertia.moments)
+    }
+
     /// Inverse mass, 1/kg; 0 if forces do not move the block.
     pub fn inverse_mass(&self) -> f64 {
         if self.is_free() { 1.0 / self.mass } else { 0.0 }
@@ -390,10 +402,7 @@ fn start(body: &Body, block: &Block) -> State {
         ..State::default()
     };
     match &body.drive {
-        Drive::Forces(_) => {
-            let frame = state.rotation * body.inertia.axes;
-            state.momentum = frame * ((frame.conjugate() * block.spin) * body.inertia.moments);
-        }
+        Drive::Forces(_) => state.momentum = body.momentum_of(&state),
         Drive::Nothing => (state.velocity, state.spin) = (DVec3::ZERO, DVec3::ZERO),
         Drive::Formulas(_) => [state.velocity, state.spin] = body.driven_at(0.0),
     }

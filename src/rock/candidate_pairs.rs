@@ -1,10 +1,10 @@
 //! Candidate pairs: the parts and boxes that a broadphase searches, the list of pairs, and how long the list stays complete.
 
 use super::{
-    Blocks, Body, Period,
+    Block, Blocks, Body, Period,
     body::State,
     contact_list::NO_CONTACT,
-    deforming::{DeformingBlocks, Strain, pose},
+    deforming::{DeformingBlocks, RIGID, Strain, pose},
     period::{Image, Periods},
     threads::{self, each_block},
 };
@@ -222,18 +222,25 @@ impl Blocks {
             .aabbs(&self.bodies, |block| self.skin_margin(block) + thin)
     }
 
-    /// The periods of the setup, with the axes that blocks fill.
-    pub(super) fn periods_of(&self, period: Period) -> Result<Periods> {
+    /// The periods of the setup, with the axes that the blocks in `list` fill. Blocks that meet their own images are held.
+    pub(super) fn repeat(&mut self, period: Period, list: &[Block]) -> Result<()> {
         let part_aabbs = self.parts.aabbs(&self.bodies, |_| 0.0);
-        let filled = self.bodies.iter().enumerate().map(|(block, body)| {
+        let mut filled = Vec::with_capacity(list.len());
+        for (block, made) in list.iter().enumerate() {
+            let body = &self.bodies[block];
             let own = part_aabbs[body.parts.clone()].iter();
             let corners = own.flat_map(|aabb| [aabb.min, aabb.max].map(DVec3::from));
-            period.filled(body, bounding_box(corners), &self.label(block))
-        });
-        Ok(Periods {
-            period,
-            filled: filled.collect::<Result<_>>()?,
-        })
+            let (ends, label) = (bounding_box(corners), self.label(block));
+            filled.push(period.filled(body, ends, &label)?);
+            if body.is_free()
+                && body.deforming == RIGID
+                && let Some(held) = period.held(made, ends, &label)?
+            {
+                self.bodies[block].hold(held, &mut self.states[block]);
+            }
+        }
+        self.periods = Some(Periods { period, filled });
+        Ok(())
     }
 
     /// The periods of the domain.

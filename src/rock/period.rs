@@ -4,12 +4,20 @@
 //! the first period and, if its box reaches other boxes there, its images in adjacent periods. A pair is two parts and the
 //! number of periods by which the second is shifted to its image near the first.
 
-use super::{Body, body::State};
-use crate::{Error, Result, rock::broadphase::Aabb};
+use super::{Block, Body, body::State};
+use crate::{
+    Error, Result,
+    geometry::{Form, Part},
+    rock::{broadphase::Aabb, integrate::Principal},
+};
 use glam::DVec3;
 
 /// Length of a block in periods above which it counts as longer than the period: 1 plus the rounding of scenes.
 const FILLED: f64 = 1.0 + 1e-9;
+
+/// Gap between a face of a block and the opposite face of its image, in periods, below which the block does not turn about
+/// other axes: contacts of a block with its own images are not computed.
+const SELF_GAP: f64 = 0.01;
 
 /// A box that is periodic along some axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,6 +120,57 @@ impl Period {
             return Err(Error::argument(label, message));
         }
         Ok(filled)
+    }
+}
+
+impl Period {
+    /// Axes along which plane faces of a block at both ends, at `low` and `high` (m), meet those of its own images.
+    fn meets_itself(&self, block: &Block, [low, high]: [DVec3; 2]) -> [bool; 3] {
+        let faces = |part: &Part| match &part.form {
+            Form::Convex(of) => of.faces().to_vec(),
+            Form::Sphere { .. } => Vec::new(),
+        };
+        let faces = block.shape.parts().iter().flat_map(faces);
+        let normals: Vec<_> = faces.map(|face| block.rotation * face.normal).collect();
+        let ends = |end: DVec3| normals.iter().any(|normal| normal.dot(end) > 1.0 - 1e-9);
+        [0, 1, 2].map(|axis| {
+            let gap = self.size[axis] - (high[axis] - low[axis]);
+            gap < SELF_GAP * self.size[axis] && ends(DVec3::AXES[axis]) && ends(-DVec3::AXES[axis])
+        })
+    }
+
+    /// The inertia tensor (kg m²) of a free rigid block that meets its own images along some axes; `None` if it meets none.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if the block starts to turn into its image.
+    pub(super) fn held(
+        &self,
+        block: &Block,
+        ends: [DVec3; 2],
+        label: &str,
+    ) -> Result<Option<Principal>> {
+        let meets = self.meets_itself(block, ends);
+        let own = |axis: usize| block.rotation.inverse() * DVec3::AXES[axis];
+        let axis = match meets {
+            [false, false, false] => return Ok(None),
+            [true, false, false] => Some(0),
+            [false, true, false] => Some(1),
+            [false, false, true] => Some(2),
+            _ => None,
+        };
+        let along = axis.map_or(DVec3::ZERO, |axis| DVec3::AXES[axis]);
+        if block.spin != along * along.dot(block.spin) {
+            let turns = axis.map_or("not at all", |axis| {
+                ["only about x", "only about y", "only about z"][axis]
+            });
+            let message = format!(
+                "its faces meet those of its own periodic images, so that it turns {turns}, and its spin is {} rad/s; make \
+                 the domain longer, or correct the spin",
+                block.spin
+            );
+            return Err(Error::argument(label, message));
+        }
+        Ok(Some(Principal::held(block.shape.inertia(), axis.map(own))))
     }
 }
 

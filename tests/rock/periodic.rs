@@ -4,7 +4,7 @@ use crate::fixture::{assert_restarts, blocks, cuboid, joint, run, setup};
 use glam::{DQuat, DVec3};
 use kit::{assert_contains, assert_near, assert_relative};
 use riprap::{
-    geometry::Shape,
+    geometry::{Load, Shape},
     rock::{
         Block, Blocks, Period, Setup,
         broadphase::{Broadphase, HostBroadphase},
@@ -226,4 +226,60 @@ fn a_snapshot_of_another_space_is_refused() {
     let mut middle = blocks(strike(DVec3::ZERO, None));
     assert!(middle.restore(&across.snapshot()).is_err());
     across.restore(&across.snapshot()).expect("its own");
+}
+
+/// A block that fills the period turns only about the axis of the period, under a contact and a load off its middle.
+#[test]
+fn a_block_between_its_own_images_does_not_turn_into_them() {
+    for (length, turns) in [(2.0, false), (2.01, false), (2.1, true)] {
+        let mut block = Block::new("prism", cuboid(2.0, 0.6, 0.8), DVec3::ZERO)
+            .rotated(DQuat::from_rotation_x(0.3));
+        block.spin = DVec3::X * 0.2;
+        let mut blocks = blocks(Setup {
+            gravity: DVec3::ZERO,
+            period: along_x(length),
+            time_step: Some(1e-3),
+            ..setup(vec![block], joint(3e7, 30.0))
+        });
+        let mass = blocks.mass(0);
+        let torque = DVec3::new(0.1, 0.2, -0.3) * mass;
+        let moment = glam::DMat3::from_cols(
+            DVec3::new(0.0, 0.5 * torque.z, -0.5 * torque.y),
+            DVec3::new(-0.5 * torque.z, 0.0, 0.5 * torque.x),
+            DVec3::new(0.5 * torque.y, -0.5 * torque.x, 0.0),
+        );
+        let load = Load {
+            moment,
+            ..Load::at(DVec3::Y * mass, DVec3::ZERO)
+        };
+        assert!((load.torque() - torque).length() < 1e-12 * mass);
+        blocks.set_loads(&[load]).unwrap();
+        run(&mut blocks, 0.5);
+        let pose = blocks.poses()[0];
+        let along = pose.deformation * DVec3::X;
+        assert_eq!(
+            (along - DVec3::X).length() > 1e-3,
+            turns,
+            "{length}: {along}"
+        );
+        assert_relative(pose.velocity.y, 0.5, 1e-9);
+        if !turns {
+            let moment = mass * (0.6 * 0.6 + 0.8 * 0.8) / 12.0;
+            let spin = riprap::psm::spin(&pose);
+            assert_near(spin.x, 0.2 + 0.5 * torque.x / moment, 1e-9);
+            assert!((spin - DVec3::X * spin.x).length() < 1e-9, "{spin}");
+        }
+    }
+}
+
+#[test]
+fn a_block_that_starts_to_turn_into_its_own_image_is_refused() {
+    let mut block = Block::new("prism", cuboid(2.0, 0.6, 0.8), DVec3::ZERO);
+    block.spin = DVec3::new(0.1, 0.0, 1e-3);
+    let refused = Blocks::new(Setup {
+        period: along_x(2.0),
+        ..setup(vec![block], joint(3e7, 30.0))
+    });
+    let expected = "it turns only about x, and its spin is [0.1, 0, 0.001] rad/s";
+    assert_contains(refused.unwrap_err(), &[expected]);
 }

@@ -98,6 +98,19 @@ impl Principal {
         }
     }
 
+    /// A body with this tensor that turns only about the unit vector `axis`, or not at all. The moments about other axes are so large
+    /// that no torque matters.
+    pub fn held(tensor: DMat3, axis: Option<DVec3>) -> Self {
+        const HELD: f64 = 1e12;
+        let held = HELD * (tensor.x_axis.x + tensor.y_axis.y + tensor.z_axis.z);
+        let axis_and_moment = axis.map(|axis| (axis, axis.dot(tensor * axis)));
+        let (axis, moment) = axis_and_moment.unwrap_or((DVec3::X, held));
+        Self {
+            moments: DVec3::new(moment, held, held),
+            axes: DQuat::from_rotation_arc(DVec3::X, axis),
+        }
+    }
+
     /// The same axes with `factor` times the moments.
     pub fn scaled(self, factor: f64) -> Self {
         Self {

@@ -22,12 +22,10 @@ impl Solid {
         let oracle =
             ConvexPolyhedron::from_convex_hull(points).expect("points in general position");
         let vertices = oracle.points().to_vec();
-        let ring = oracle.vertices_adj_to_face();
-        let faces = oracle.faces().iter().map(|face| {
-            let first = face.first_vertex_or_edge as usize;
-            let corner = |k: usize| vertices[ring[first + k] as usize];
-            let normal = (1..face.num_vertices_or_edges as usize - 1)
-                .map(|k| (corner(k) - corner(0)).cross(corner(k + 1) - corner(0)))
+        let faces = loops(&oracle).map(|corners| {
+            let fan = corners[1..].windows(2);
+            let normal = fan
+                .map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]))
                 .sum::<DVec3>()
                 .normalize();
             let heights = vertices.iter().map(|v| normal.dot(*v));
@@ -41,6 +39,12 @@ impl Solid {
             vertices: vertices.clone(),
             oracle,
         }
+    }
+
+    /// Whether the corners of each face lie in its plane: the oracle merges triangles that are nearly parallel.
+    pub fn has_plane_faces(&self) -> bool {
+        let mut faces = loops(&self.oracle).zip(&self.faces);
+        faces.all(|(corners, face)| corners.iter().all(|x| face.height(*x) > -1e-12))
     }
 
     /// A box with the given edges.
@@ -125,6 +129,16 @@ impl Solid {
     pub fn radius(&self) -> f64 {
         self.vertices.iter().map(|v| v.length()).fold(0.0, f64::max)
     }
+}
+
+/// Corners of each face.
+fn loops(of: &ConvexPolyhedron) -> impl Iterator<Item = Vec<DVec3>> {
+    let ring = of.vertices_adj_to_face();
+    of.faces().iter().map(move |face| {
+        let first = face.first_vertex_or_edge as usize;
+        let ring = &ring[first..first + face.num_vertices_or_edges as usize];
+        ring.iter().map(|v| of.points()[*v as usize]).collect()
+    })
 }
 
 /// A sphere in the world.

@@ -208,6 +208,7 @@ pub const CASES: &[Case] = &[
     short("dda/vibration", "period of a cube that swings in its volume", rock::deformable::vibration),
     short("dda/bar", "stress and elongation of a hanging bar", rock::deformable::bar),
     short("dda/stack", "a stack of deformable and rigid cubes under its weight", rock::deformable::stack),
+    short("dda/submerged", "stress of a deformable cube under the pressure of water", rock::submerged::run),
     short("dda/collision", "two bars meet end to end without damping", rock::deformable::collision),
     short("dda/rigid-limit", "a stiff block moves as a rigid one, the difference falls with 1/E", rock::deformable::rigid_limit),
     short("water/still", "hydrostatic pressure of water at rest", water::still::run),

@@ -5,6 +5,7 @@ pub mod detection;
 pub mod dynamics;
 pub mod incline;
 pub mod rest;
+pub mod submerged;
 
 use super::Trial;
 use glam::{DQuat, DVec3};

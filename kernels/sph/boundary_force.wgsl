@@ -4,7 +4,8 @@
 
 @group(0) @binding(0) var<storage, read> particles: array<Particle>;
 @group(0) @binding(2) var<storage, read> boundary: array<Particle>;
-// Forces and pressures by the index of the boundary particle; those of bodies with loads come first.
+// Forces by the index of the boundary particle, and with a deformable body the pressures on open faces; those of bodies with loads
+// come first.
 @group(0) @binding(3) var<storage, read_write> forces: array<vec4<f32>>;
 @group(0) @binding(4) var<storage, read> clock: Clock;
 
@@ -13,6 +14,13 @@ var<private> here: Particle;
 var<private> index: u32;
 var<private> density: f32;
 var<private> force: vec3<f32>;
+// Sum of the kernel function over the water, and the sum from which a particle in the first layer of a face is not in a joint.
+var<private> weights: f32;
+
+override OPEN_WEIGHT: f32;
+
+// Whether a body deforms.
+override DEFORMS: bool;
 
 fn visit_fluid(j: u32, counts: bool) {
     let other = particles[j];
@@ -24,6 +32,9 @@ fn visit_fluid(j: u32, counts: bool) {
     if (is_added(inside)) {
         let steep = select(0.0, slope(sqrt(square)), inside);
         force += push * steep * r;
+        if (DEFORMS) {
+            weights += select(0.0, weight(sqrt(square)), inside);
+        }
         drag(index, steep / densities, other.velocity);
     }
 }
@@ -44,9 +55,10 @@ fn boundary_force(
         return;
     }
     force = vec3(0.0);
+    weights = 0.0;
     if (here.at.x >= 0) {
         density = 1.0 + excess_of(here.excess);
         visit_fluid_neighbours(n, here.at);
     }
-    forces[here.id] = vec4(force, here.excess);
+    forces[here.id] = vec4(force, select(0.0, here.excess, weights >= OPEN_WEIGHT));
 }

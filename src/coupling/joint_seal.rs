@@ -10,7 +10,7 @@ use super::{
 use crate::{
     geometry::{Form, Load, Pose, Shape, area_of, corners, outer},
     rock::{Period, contact::Placed},
-    sph::{Scheme, Setup, Side},
+    sph::{Body, Scheme, Setup, Side},
 };
 use glam::DVec3;
 use std::sync::Arc;
@@ -28,6 +28,8 @@ pub(crate) struct JointSeal {
     shapes: Vec<Arc<Shape>>,
     /// Blocks whose loads are requested.
     loaded: Vec<bool>,
+    /// Whether each block deforms.
+    deforms: Vec<bool>,
     period: Option<Period>,
     /// Particle spacing, m.
     spacing: f64,
@@ -90,6 +92,7 @@ impl JointSeal {
                 .iter()
                 .map(|requested| *requested && has_boundary_particles)
                 .collect(),
+            deforms: setup.bodies.iter().map(Body::deforms).collect(),
             period,
             spacing: setup.spacing,
             deficit: KernelDeficit::new(setup),
@@ -277,7 +280,12 @@ impl JointSeal {
             let block = edge.between.block;
             let load = &mut loads[block];
             load.force += force;
-            load.moment += outer(force, edge.place - poses[block].centre);
+            let dyad = outer(force, edge.place - poses[block].centre);
+            load.moment += match self.deforms.get(block) {
+                // The pressures on the faces, which strain the block, lack nothing along edges.
+                Some(true) => (dyad - dyad.transpose()) * 0.5,
+                _ => dyad,
+            };
         }
     }
 }

@@ -12,11 +12,17 @@ const REGULAR: f64 = 1e-3;
 /// Largest number of grid nodes per node with a height; with more, the points are scattered.
 const SPARSE: usize = 100;
 
+/// The text of a file, without a byte order mark.
+fn text_of(bytes: &[u8]) -> Result<&str, String> {
+    let text =
+        std::str::from_utf8(bytes).map_err(|e| format!("it is not text: {e}; export it again"))?;
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+}
+
 /// Reads x, y and z of one node per line, in any order, separated by spaces, commas or semicolons. Lines before the first node
 /// that are not numbers are column names; lines that begin with # are comments.
 pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
-    let text =
-        std::str::from_utf8(bytes).map_err(|e| format!("it is not text: {e}; export it again"))?;
+    let text = text_of(bytes)?;
     let mut points: Vec<[f64; 3]> = Vec::new();
     for (line, row) in (1..).zip(text.lines()) {
         let row = row.trim();
@@ -99,8 +105,7 @@ pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
 
 /// Reads a header of words with numbers, then rows of heights from north to south.
 pub(super) fn read_ascii_grid(bytes: &[u8]) -> Result<Terrain, String> {
-    let text =
-        std::str::from_utf8(bytes).map_err(|e| format!("it is not text: {e}; export it again"))?;
+    let text = text_of(bytes)?;
     let mut words = text.split_whitespace().peekable();
     let mut header = std::collections::BTreeMap::new();
     while let Some(word) = words.next_if(|word| word.parse::<f64>().is_err()) {

@@ -7,7 +7,7 @@
 use super::{Block, Body, body::State};
 use crate::{
     Error, Result,
-    geometry::{Form, Part},
+    geometry::{Form, HalfSpace, Part},
     rock::{broadphase::Aabb, integrate::Principal},
 };
 use glam::DVec3;
@@ -127,15 +127,25 @@ impl Period {
     /// Axes along which plane faces of a block at both ends, at `low` and `high` (m), meet those of its own images.
     fn meets_itself(&self, block: &Block, [low, high]: [DVec3; 2]) -> [bool; 3] {
         let faces = |part: &Part| match &part.form {
-            Form::Convex(of) => of.faces().to_vec(),
+            Form::Convex(of) => of
+                .faces()
+                .iter()
+                .map(|f| f.seen_from(-part.offset))
+                .collect(),
             Form::Sphere { .. } => Vec::new(),
         };
-        let faces = block.shape.parts().iter().flat_map(faces);
-        let normals: Vec<_> = faces.map(|face| block.rotation * face.normal).collect();
-        let ends = |end: DVec3| normals.iter().any(|normal| normal.dot(end) > 1.0 - 1e-9);
+        let faces: Vec<HalfSpace> = block.shape.parts().iter().flat_map(faces).collect();
         [0, 1, 2].map(|axis| {
-            let gap = self.size[axis] - (high[axis] - low[axis]);
-            gap < SELF_GAP * self.size[axis] && ends(DVec3::AXES[axis]) && ends(-DVec3::AXES[axis])
+            let near = SELF_GAP * self.size[axis];
+            let is_end = |out: DVec3, at: f64| {
+                faces.iter().any(|face| {
+                    let distance = out.dot(block.centre) + face.distance;
+                    out.dot(block.rotation * face.normal) > 1.0 - 1e-9 && (at - distance) < near
+                })
+            };
+            self.size[axis] - (high[axis] - low[axis]) < near
+                && is_end(DVec3::AXES[axis], high[axis])
+                && is_end(-DVec3::AXES[axis], -low[axis])
         })
     }
 

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    geometry::{Pose, outer, plane_faces},
+    geometry::{PlaneFace, Pose, outer, plane_faces},
     gpu::{bins::WORKGROUP, buffers::uniform, kernel::Kernel},
     rock::{Block, Motion},
 };
@@ -44,8 +44,8 @@ pub fn bodies(
     bodies.collect()
 }
 
-/// [`Body::strain_areas`] of a block with these `boundary` particles (m, in its frame). The particles in the first layer of a face
-/// share its area equally.
+/// [`Body::strain_areas`] of a block with these `boundary` particles (m, in its frame). The particles in the first layer of a face and
+/// of no other face, if there are any, share its area equally: one face of an edge may be in a joint.
 fn strain_areas(block: &Block, boundary: &[DVec3], spacing: f64) -> Vec<DMat3> {
     if block.deformable.is_none() {
         return Vec::new();
@@ -53,10 +53,17 @@ fn strain_areas(block: &Block, boundary: &[DVec3], spacing: f64) -> Vec<DMat3> {
     let mut areas = vec![DMat3::ZERO; boundary.len()];
     let rest = Pose::rigid(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
     let parts = block.shape.parts().iter().enumerate();
-    for face in parts.flat_map(|(number, part)| plane_faces(number, part, &rest)) {
+    let faces = parts.flat_map(|(number, part)| plane_faces(number, part, &rest));
+    let faces: Vec<_> = faces.collect();
+    let is_first = |face: &PlaneFace, x: DVec3| face.normal.dot(face.centre - x) < spacing;
+    for face in &faces {
         let depth = |x: DVec3| face.normal.dot(face.centre - x);
-        let first = boundary.iter().enumerate();
-        let first: Vec<_> = first.filter(|(_, x)| depth(**x) < spacing).collect();
+        let all = boundary.iter().enumerate();
+        let mut first: Vec<_> = all.filter(|(_, x)| is_first(face, **x)).collect();
+        let alone = |x: DVec3| faces.iter().filter(|f| is_first(f, x)).count() == 1;
+        if first.iter().any(|(_, x)| alone(**x)) {
+            first.retain(|(_, x)| alone(**x));
+        }
         let count = first.len() as f64;
         let foot = |x: DVec3| x + depth(x) * face.normal;
         let mean = first.iter().map(|(_, x)| foot(**x)).sum::<DVec3>() / count;

@@ -1,6 +1,6 @@
 //! Kernel files and constants of the solver.
 
-use super::{CellGrid, EquationOfState, NeighbourSearch, Scheme, Setup};
+use super::{CellGrid, EquationOfState, NeighbourSearch, Scheme, Setup, Wendland};
 use crate::gpu::link::Program;
 use std::f64::consts::PI;
 
@@ -97,6 +97,28 @@ pub fn program(setup: &Setup, grid: &CellGrid, kernel: &str) -> Program {
         )
 }
 
+/// Fraction of [`open_weight`] above which a boundary particle is on an open face: half of it is the most in a joint.
+const OPEN: f64 = 0.55;
+
+/// Sum of the kernel function over the water at a boundary particle in the first layer of a plane wall, spacings to the power of minus
+/// the dimension.
+fn open_weight(setup: &Setup) -> f64 {
+    let h = setup.smoothing;
+    let kernel = if setup.plane {
+        Wendland::plane(h)
+    } else {
+        Wendland::space(h)
+    };
+    let reach = kernel.support().ceil() as i32;
+    let across = if setup.plane { 0..=0 } else { -reach..=reach };
+    let row = |y: i32, z: i32| -> f64 {
+        let distance = |x: i32| (f64::from(x * x + y * y + z * z)).sqrt();
+        (-reach..=reach).map(|x| kernel.at(distance(x))).sum()
+    };
+    let layer = |z: i32| -> f64 { across.clone().map(|y| row(y, z)).sum() };
+    (1..=reach).map(layer).sum()
+}
+
 /// The constants of all kernels.
 pub fn constants(setup: &Setup, grid: &CellGrid) -> Vec<(&'static str, f64)> {
     let h = setup.smoothing;
@@ -159,6 +181,7 @@ pub fn constants(setup: &Setup, grid: &CellGrid) -> Vec<(&'static str, f64)> {
         ("PENALTY_STIFFNESS", stiffness.powi(2)),
         ("PENALTY_DAMPING", PENALTY_FREQUENCY),
         ("DEFORMS", f64::from(u8::from(setup.deforms()))),
+        ("OPEN_WEIGHT", OPEN * open_weight(setup)),
         ("KERNEL_SCALE", scale),
         ("GRAVITY_X", gravity.x),
         ("GRAVITY_Y", gravity.y),

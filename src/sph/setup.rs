@@ -310,11 +310,16 @@ impl Setup {
 impl Setup {
     /// Whether a body deforms.
     pub(super) fn deforms(&self) -> bool {
-        self.bodies.iter().any(|body| !body.strain_areas.is_empty())
+        self.bodies.iter().any(Body::deforms)
     }
 }
 
 impl Body {
+    /// Whether it deforms.
+    pub(crate) fn deforms(&self) -> bool {
+        !self.strain_areas.is_empty()
+    }
+
     /// Checks that all coordinates are finite in device units.
     fn check(&self, key: &str, spacing: f64) -> Result<()> {
         let refuse = |list: &str, index: usize| {

@@ -65,6 +65,8 @@ fn collide_with_solid(
     h: ptr<function, array<Real, 27>>,
 ) -> SolidWeights {
     let e = psm.fraction;
+    // A plane that fills less than half of a cell leaves its centre in the fluid.
+    let clear = (e < Real(0.5)) & (psm.shares == Real(0.0)) & !solid(cell);
     let open = solid_weight(e, tau_minus_half, odd_rate);
     let closure = closure_of(e);
     let narrow = (closure > Real(0.0)) & (psm.shares > Real(0.0)) & !psm.interior;
@@ -98,8 +100,6 @@ fn collide_with_solid(
     let higher = with_law(higher_without_law, share_of_law);
     *h = s;
     let fluid = (psm.shares > Real(0.0)) & !solid(cell);
-    // A plane that fills less than half of a cell leaves its centre in the fluid.
-    let clear = (e < Real(0.5)) & (psm.shares == Real(0.0)) & !solid(cell);
     let beta = select(Real(0.0), weight / max(psm.shares, Real(1e-30)), fluid);
     // Values beyond the domain may be NaN; they must not count.
     let a = factor * rho;

@@ -1,6 +1,6 @@
 //! Kernel files and constants of the solver.
 
-use super::{CellGrid, EquationOfState, NeighbourSearch, Scheme, Setup, Wendland};
+use super::{CellGrid, EquationOfState, NeighbourSearch, Scheme, Setup};
 use crate::gpu::link::Program;
 use std::f64::consts::PI;
 
@@ -103,20 +103,18 @@ const OPEN: f64 = 0.55;
 /// Sum of the kernel function over the water at a boundary particle in the first layer of a plane wall, spacings to the power of minus
 /// the dimension.
 fn open_weight(setup: &Setup) -> f64 {
-    let h = setup.smoothing;
-    let kernel = if setup.plane {
-        Wendland::plane(h)
-    } else {
-        Wendland::space(h)
+    let (kernel, spacing) = (setup.kernel(), setup.spacing);
+    let reach = (2.0 * setup.smoothing).ceil() as i32;
+    let (across, cell) = match setup.plane {
+        true => (0..=0, spacing.powi(2)),
+        false => (-reach..=reach, spacing.powi(3)),
     };
-    let reach = kernel.support().ceil() as i32;
-    let across = if setup.plane { 0..=0 } else { -reach..=reach };
     let row = |y: i32, z: i32| -> f64 {
-        let distance = |x: i32| (f64::from(x * x + y * y + z * z)).sqrt();
+        let distance = |x: i32| spacing * f64::from(x * x + y * y + z * z).sqrt();
         (-reach..=reach).map(|x| kernel.at(distance(x))).sum()
     };
     let layer = |z: i32| -> f64 { across.clone().map(|y| row(y, z)).sum() };
-    (1..=reach).map(layer).sum()
+    cell * (1..=reach).map(layer).sum::<f64>()
 }
 
 /// The constants of all kernels.

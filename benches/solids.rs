@@ -127,6 +127,7 @@ impl World {
             shape: shape.clone(),
             loaded: true,
             faces: true,
+            filled: [false; 3],
         };
         let blocks = vec![block; BLOCKS.pow(3) as usize];
         let mut world = Self {

@@ -139,6 +139,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         shape: body.shape.clone(),
         loaded: true,
         faces: false,
+        filled: [false; 3],
     });
     let mut cells = SolidCells::new(&device, &lattice, frame, solids.collect())?;
 

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     Result,
     lattice::{Lattice, State},
-    psm::{CellWork, NearCell, SolidBlock, SolidCells, imaged, near_cells, outline},
+    psm::{CellWork, NearCell, SolidBlock, SolidCells, near_cells, outline},
     rock::{
         Block, Blocks, Motion,
         law::{Film, LoadDelay},
@@ -76,11 +76,12 @@ pub(crate) async fn couple(
         .iter()
         .map(|block| ProbeRequest::of(scene, &block.name));
     let requests: Vec<ProbeRequest> = requests.collect();
-    let solids = blocks.iter().zip(&requests);
-    let solids = solids.map(|(block, request)| SolidBlock {
+    let solids = blocks.iter().zip(&requests).enumerate();
+    let solids = solids.map(|(n, (block, request))| SolidBlock {
         shape: block.shape.clone(),
         loaded: block.motion != Motion::Fixed || request.load,
         faces: request.faces || block.deformable.is_some(),
+        filled: rock.blocks.filled(n),
     });
     let solids = solids.collect();
     let period = rock.blocks.period();
@@ -167,7 +168,8 @@ impl Coupled<'_> {
         for (block, pose) in poses.iter().enumerate().take(self.in_fluid()) {
             let parts = self.setup().setup.blocks[block].shape.parts().iter();
             let outlines: Vec<_> = parts.map(|part| outline(frame, part, pose)).collect();
-            let imaged = imaged(&outlines, cells, periodic);
+            let filled = self.blocks().filled(block);
+            let imaged = [0, 1, 2].map(|axis| periodic[axis] && !filled[axis]);
             for outline in &outlines {
                 near_cells(outline, reach, cells, imaged, &mut found);
             }

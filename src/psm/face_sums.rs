@@ -4,7 +4,7 @@ use super::{
     CellMapping, FACE_LAYERS, FACE_LOAD, FaceJob, Plan, Tile,
     kernels::{Growing, Kernels},
     program,
-    tiles::{Outline, SKIN, imaged},
+    tiles::{Outline, SKIN},
 };
 use crate::{
     Result,
@@ -12,7 +12,6 @@ use crate::{
     lattice::Lattice,
 };
 use glam::DVec3;
-use std::collections::HashMap;
 
 /// Names of the buffers in WGSL.
 const NAMES: [&str; 4] = ["jobs", "face_first", "face_partials", "face_loads"];
@@ -34,8 +33,6 @@ pub(super) struct FaceSums {
     buffers: [Growing; 4],
     jobs: Vec<FaceJob>,
     face_first: Vec<u32>,
-    /// Axes along which the requesting blocks have images.
-    imaged: HashMap<usize, [bool; 3]>,
 }
 
 impl FaceSums {
@@ -58,7 +55,6 @@ impl FaceSums {
             buffers: NAMES.map(|name| Growing::new(device, name)),
             jobs: Vec::new(),
             face_first: Vec::new(),
-            imaged: HashMap::new(),
         })
     }
 
@@ -77,12 +73,8 @@ impl FaceSums {
         self.face_first.push(0);
         let grid = lattice.grid();
         let brick = grid.brick.map(f64::from);
-        let periodic = lattice.setup().periodic_axes();
-        self.imaged.clear();
         for &block in &self.requested {
             let tiles = plan.tiles_of(block);
-            let imaged = imaged(&outlines[block], grid.cells, periodic);
-            self.imaged.insert(block, imaged);
             for (part, outline) in (first_part[block]..).zip(&outlines[block]) {
                 for (face, plane) in (0..).zip(&outline.faces) {
                     for layer in 0..FACE_LAYERS as u32 {
@@ -136,11 +128,6 @@ impl FaceSums {
     /// The kernels in the order in which they run.
     pub fn kernels(&self) -> [&Kernel; 2] {
         [&self.reduce, &self.sum]
-    }
-
-    /// Along which axes a block that requests them had images when its tiles were laid down.
-    pub fn imaged(&self, block: usize) -> [bool; 3] {
-        self.imaged.get(&block).copied().unwrap_or_default()
     }
 
     /// Records the sums.

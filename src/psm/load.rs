@@ -86,7 +86,7 @@ impl SolidCells {
             let (shape, pose) = (&self.blocks[block].shape, &self.poses[block]);
             let parts = shape.parts().iter().enumerate();
             let its = parts.flat_map(|(number, part)| plane_faces(number, part, pose));
-            let window = self.window(faces.imaged(block));
+            let window = self.window(self.imaged(block));
             let placed: Vec<_> = shape.parts().iter().map(|p| Placed::of(p, pose)).collect();
             let load = |(face, sums): (PlaneFace, _)| {
                 let part = &shape.parts()[face.part];

@@ -33,7 +33,8 @@
 //! // A ball of 6 cm in a fluid whose cells are 1 cm wide.
 //! let units = Units { cell: 0.01, time_step: 0.001, density: 1000.0 };
 //! let frame = Frame { origin: DVec3::ZERO, units };
-//! let ball = SolidBlock { shape: Shape::sphere(0.03)?.into(), loaded: true, faces: false };
+//! let shape = Shape::sphere(0.03)?.into();
+//! let ball = SolidBlock { shape, loaded: true, faces: false, filled: [false; 3] };
 //! let mut cells = SolidCells::new(&device, &lattice, frame, vec![ball])?;
 //!
 //! // A step: where the ball is, its cells, the bricks with them, the load, all other bricks.
@@ -83,6 +84,5 @@ pub use tables::{
     FACE_LAYERS, FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR,
     PLANES, Part, SHARED_SUM, TOUCHES, Tile, WRENCH,
 };
-pub(crate) use tiles::imaged;
 
 use tiles::Plan;

@@ -26,6 +26,8 @@ pub struct SolidBlock {
     pub loaded: bool,
     /// Whether the loads on its faces are needed.
     pub faces: bool,
+    /// Periodic axes along which it has no images: those that a fixed block fills because it is longer than the domain.
+    pub filled: [bool; 3],
 }
 
 /// Work done since the start.
@@ -316,8 +318,15 @@ impl SolidCells {
             true => FACE_LAYERS as f64,
             false => NEIGHBOURS,
         };
-        let around = (outlines, margin);
+        let around = (outlines, margin, self.imaged(block));
         self.plan.find(&self.tiling, block, at, around, first);
+    }
+
+    /// Axes along which a block, in the order of the device, has images.
+    pub(super) fn imaged(&self, block: usize) -> [bool; 3] {
+        let (_, periodic) = self.tiling.domain();
+        let filled = self.blocks[block].filled;
+        [0, 1, 2].map(|axis| periodic[axis] && !filled[axis])
     }
 
     fn make_room(

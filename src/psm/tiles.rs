@@ -2,7 +2,7 @@
 
 use super::Tile;
 use crate::{
-    geometry::{Pose, min_max},
+    geometry::Pose,
     lattice::{Geometry, Grid},
 };
 use glam::DVec3;
@@ -33,14 +33,6 @@ impl Outline {
         self
     }
 
-    /// Corners of the bounding box of the part, for a sphere with its true radius, from the centroid.
-    fn ends(&self) -> [DVec3; 2] {
-        match self.faces.is_empty() {
-            true => [-self.radius, self.radius].map(DVec3::splat),
-            false => [self.low, self.high],
-        }
-    }
-
     /// Whether a box of half extents `half` around `middle` (from the centroid) certainly does not touch the part.
     fn is_off(&self, middle: DVec3, half: DVec3) -> bool {
         if (middle + half).cmplt(self.low).any() || (middle - half).cmpgt(self.high).any() {
@@ -59,19 +51,6 @@ impl Outline {
 
 /// Radius below which the growth of spheres is constant, cells: `LEAST_RADIUS` of the kernel.
 const LEAST_RADIUS: f64 = 2.0;
-
-/// Tolerance of the length of a block that fills a period, cells: rounding.
-const LONGER: f64 = 1e-6;
-
-/// The `periodic` axes of a domain of `cells` cells along which a block with the parts `outlines` has images:
-/// those that it does not fill. A block longer than a period has none along that axis.
-pub fn imaged(outlines: &[Outline], cells: [u32; 3], periodic: [bool; 3]) -> [bool; 3] {
-    [0, 1, 2].map(|axis| {
-        let ends = |of: &Outline| of.ends().map(|end| of.centre[axis] + end[axis]);
-        let [low, high] = min_max(outlines.iter().flat_map(ends));
-        periodic[axis] && high - low <= f64::from(cells[axis]) + LONGER
-    })
-}
 
 /// The bricks along an axis that an interval reaches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -141,10 +120,14 @@ impl Tiling {
         (self.grid.cells, self.periodic)
     }
 
-    /// The tiles of the parts of a block, with parts numbered from 0 and grown by `margin` cells, without slots,
-    /// each with its brick; in the order of parts, bricks and lanes.
-    pub fn tiles_of_block(&self, outlines: &[Outline], margin: f64) -> Vec<(u32, Tile)> {
-        let imaged = imaged(outlines, self.grid.cells, self.periodic);
+    /// The tiles of the parts of a block with its images along axes that are `imaged`, with parts numbered from 0 and
+    /// grown by `margin` cells, without slots, each with its brick; in the order of parts, bricks and lanes.
+    pub fn tiles_of_block(
+        &self,
+        outlines: &[Outline],
+        margin: f64,
+        imaged: [bool; 3],
+    ) -> Vec<(u32, Tile)> {
         let parts = (0..).zip(outlines);
         let tiles = parts.flat_map(|(part, outline)| {
             let tiles = self.tiles(outline, margin, imaged).into_iter();
@@ -334,13 +317,13 @@ impl Plan {
         tiling: &Tiling,
         block: usize,
         (pose, radius, cell): (&Pose, f64, f64),
-        (outlines, margin): (&[Outline], f64),
+        (outlines, margin, imaged): (&[Outline], f64, [bool; 3]),
         first_part: u32,
     ) {
         if self.stray(block, pose, radius, cell) < 0.5 * SKIN {
             return;
         }
-        let mut tiles = tiling.tiles_of_block(outlines, margin + SKIN);
+        let mut tiles = tiling.tiles_of_block(outlines, margin + SKIN, imaged);
         for (_, tile) in &mut tiles {
             tile.part += first_part;
             tile.block = block as u32;

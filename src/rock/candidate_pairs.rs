@@ -248,6 +248,12 @@ impl Blocks {
         self.periods.as_ref().map(|periods| periods.period)
     }
 
+    /// Periodic axes that a block fills, along which it has no images.
+    pub(crate) fn filled(&self, block: usize) -> [bool; 3] {
+        let periods = self.periods.as_ref();
+        periods.map_or([false; 3], |periods| periods.filled[block])
+    }
+
     /// Shifts, m, to those images of the second of two blocks, at `separation` (m) from the first, that are within `range`
     /// (m) of the first along each axis. Along an axis that one of the blocks fills, only the shift to the nearest image,
     /// since the filling block is the same in all periods.

@@ -25,6 +25,7 @@ fn ball(radius: f64) -> SolidBlock {
         shape: Arc::new(Shape::sphere(radius).unwrap()),
         loaded: true,
         faces: false,
+        filled: [false; 3],
     }
 }
 

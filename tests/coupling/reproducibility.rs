@@ -114,6 +114,38 @@ fn runs_repeat_and_go_on_from_every_cut() {
     }
 }
 
+/// Its strain makes it longer and shorter than the period.
+#[test]
+fn a_deformable_block_as_long_as_the_period_goes_on_from_a_cut() {
+    let text = format!(
+        r#"{}{}youngs_modulus = 1e4
+        [boundaries]
+        z_min = {{ kind = "wall" }}
+        z_max = {{ kind = "wall" }}
+        [rock]
+        gravity = [0, 0, 0]
+        [numerics]
+        time_step = 0.25
+        [[blocks]]
+        kind = "box"
+        size = [4, 2, 1]
+        position = [2, 1.5, 1.4]
+        velocity = [0.1, 0, 0]
+        deformable = true
+        initial_stress = [10, 0, 0, 0, 0, 0]"#,
+        fluid([8, 6, 6], 0.02),
+        material("rock", 2000.0),
+    );
+    let mut whole = World::new(&text);
+    whole.advance(7);
+    let cut = whole.bits();
+    whole.advance(23);
+    let mut fresh = World::new(&text);
+    fresh.load(&cut);
+    fresh.advance(23);
+    assert!(fresh.bits() == whole.bits());
+}
+
 /// The effect of solids in the last step is in the velocities of their cells and in no population.
 #[test]
 fn a_restart_shows_what_the_run_showed() {

@@ -41,6 +41,7 @@ fn run(limits: wgpu::Limits) -> (u32, Vec<u32>, Populations) {
         shape: Arc::new(shape),
         loaded: true,
         faces: true,
+        filled: [false; 3],
     };
     let mut cells = SolidCells::new(device, &lattice, frame, vec![block]).unwrap();
     for step in 0..6 {

@@ -222,6 +222,7 @@ fn assert_equal_to_twin(name: &str, setup: &Setup, boxes: &[Cuboid], limit: f64)
         shape: Arc::new(Polyhedron::cuboid(block.size).unwrap().into()),
         loaded: true,
         faces: false,
+        filled: [false; 3],
     };
     let blocks = boxes.iter().map(submerged).collect();
     let mut immersed = SolidCells::new(&device, &subject.lattice, frame, blocks).unwrap();

@@ -51,6 +51,7 @@ impl World {
             shape: Arc::new(shape),
             loaded: true,
             faces: false,
+            filled: [false; 3],
         };
         let blocks = shapes.map(submerged).into();
         let immersed = SolidCells::new(&rig.device, &lattice, frame, blocks).unwrap();

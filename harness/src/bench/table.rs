@@ -283,6 +283,7 @@ fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
         shape: shape.clone(),
         loaded: true,
         faces: false,
+        filled: [false; 3],
     });
     let mut immersed = SolidCells::new(&device, &lattice, unit_frame(), submerged.collect())?;
     let velocity = DVec3::new(0.0, 0.02, 0.0);

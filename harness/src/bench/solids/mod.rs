@@ -238,6 +238,7 @@ fn solid_fractions(turns: &InterleavedRuns, across: u32) -> anyhow::Result<f64> 
         shape,
         loaded: false,
         faces: false,
+        filled: [false; 3],
     }];
     let mut cells = SolidCells::new(device, &lattice, unit_frame(), blocks)?;
     let mut place = DVec3::splat(0.5 * f64::from(edge));

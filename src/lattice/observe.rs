@@ -52,7 +52,7 @@ pub struct Sums {
     pub enstrophy: f64,
     /// Largest |u|; NaN if any is NaN.
     pub max_speed: f64,
-    /// Number of fluid cells.
+    /// Volume of the fluid cells outside of static solids, cells.
     pub cells: f64,
 }
 
@@ -441,7 +441,11 @@ impl Observer {
         queue.submit([encoder.finish()]);
         let partial: Vec<[f32; 8]> = self.readback.read(device, queue, &buffer, turns).await?;
         self.sums = Some((buffer, dispatch));
-        let mut sums = Sums::default();
+        let solid = lattice.setup.surface.iter();
+        let mut sums = Sums {
+            cells: -solid.map(|of| f64::from(of.fraction)).sum::<f64>(),
+            ..Sums::default()
+        };
         for part in partial {
             let part = part.map(f64::from);
             sums.excess += part[0];

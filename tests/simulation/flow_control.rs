@@ -14,15 +14,21 @@ const HEIGHT: f64 = 1.2;
 
 /// Plates 12 cells apart.
 fn plates() -> Scene {
+    channel(HEIGHT, "")
+}
+
+/// A channel of a height, m, with more tables.
+fn channel(height: f64, more: &str) -> Scene {
     kit::scene::read(&format!(
         r#"
-        domain = {{ size = [0.5, 0.3, {HEIGHT}], cell = 0.1 }}
+        domain = {{ size = [0.5, 0.3, {height}], cell = 0.1 }}
         fluid = {{ viscosity = {VISCOSITY}, density = 1000, bulk_velocity = [-{VELOCITY}, 0, 0] }}
         numerics.time_step = 0.1
         run.steps = 8000
         [boundaries]
         z_min = {{ kind = "wall" }}
         z_max = {{ kind = "wall" }}
+        {more}
         "#
     ))
     .unwrap()
@@ -42,6 +48,31 @@ fn the_force_of_a_laminar_flow_is_that_of_poiseuille() {
     let expected = -12.0 * VISCOSITY * VELOCITY / HEIGHT.powi(2);
     // Half-way walls are exact to 1 % on 12 cells.
     assert_near(found.driving_acceleration, expected, 0.01 * expected.abs());
+}
+
+/// Exact solids with faces in the middle of cells: the mean is over the volume that they leave open.
+#[test]
+fn the_bulk_velocity_between_exact_solids_is_that_of_the_open_volume() {
+    let rig = Rig::new();
+    let solids = [(0.15, 1), (0.15 + HEIGHT, -1)].map(|(z, up)| {
+        format!(
+            r#"
+            [[solids]]
+            kind = "half_space"
+            point = [0, 0, {z}]
+            normal = [0, 0, {up}]
+            surface = "exact"
+            "#
+        )
+    });
+    let scene = channel(HEIGHT + 0.3, &solids.concat());
+    let mut simulation = rig.simulation(&scene).unwrap();
+    rig.wait(simulation.advance(8000)).unwrap();
+    let found = totals(&rig, &mut simulation);
+    assert_near(found.bulk_velocity, -VELOCITY, 1e-4 * VELOCITY);
+    let mass = 1000.0 * 0.5 * 0.3 * HEIGHT;
+    assert_near(found.mass, mass, 1e-3 * mass);
+    assert_near(found.momentum[0], -VELOCITY * mass, 1e-3 * VELOCITY * mass);
 }
 
 #[test]

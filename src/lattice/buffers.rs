@@ -263,6 +263,7 @@ pub(super) fn wall_velocities(
     grid: &Grid,
     moving: &[MovingCell],
 ) -> Vec<[[f32; 3]; 3]> {
+    let inlets = [0, 1, 2].map(|axis| [0, 1].map(|side| inlet_velocities(setup, grid, axis, side)));
     let of = |cell: &MovingCell, axis: usize| {
         let at = grid.padded_cell(cell.cell);
         let Some(side) = moving_side(cell, axis) else {
@@ -271,7 +272,7 @@ pub(super) fn wall_velocities(
         let (a, b) = in_plane(axis);
         match &setup.faces[axis][side] {
             Face::Wall(velocity) => velocity.map(|v| v as f32),
-            Face::Velocity(list) => list[(at[a] + grid.cells[a] * at[b]) as usize],
+            Face::Velocity(_) => inlets[axis][side][(at[a] + grid.cells[a] * at[b]) as usize],
             _ => [0.0; 3],
         }
     };
@@ -279,6 +280,31 @@ pub(super) fn wall_velocities(
         .iter()
         .map(|cell| [0, 1, 2].map(|axis| of(cell, axis)))
         .collect()
+}
+
+/// Velocities of the cells of a velocity face, lower axis fastest, times the fraction of the cell that static solids leave open:
+/// the flow through the face is that through its open area. Empty for other faces.
+pub(super) fn inlet_velocities(
+    setup: &Setup,
+    grid: &Grid,
+    axis: usize,
+    side: usize,
+) -> Vec<[f32; 3]> {
+    let Face::Velocity(given) = &setup.faces[axis][side] else {
+        return Vec::new();
+    };
+    let (mut velocities, [nx, ny, _]) = (given.clone(), grid.cells);
+    let (a, b) = in_plane(axis);
+    let layer = [0, grid.cells[axis] - 1][side];
+    for solid in &setup.surface {
+        let n = solid.cell;
+        let at = [n % nx, n / nx % ny, n / (nx * ny)];
+        if at[axis] == layer {
+            let velocity = &mut velocities[(at[a] + grid.cells[a] * at[b]) as usize];
+            *velocity = velocity.map(|u| u * (1.0 - solid.fraction));
+        }
+    }
+    velocities
 }
 
 /// The side of the moving face of a cell that is normal to `axis`. Both sides of a domain one cell thick are its own faces; the lower one

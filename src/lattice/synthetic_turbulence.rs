@@ -3,7 +3,7 @@
 use super::{
     Face, Grid, Lattice, MovingCell, Setup,
     boundary::cell_pass,
-    buffers::{moving_side, storage},
+    buffers::{inlet_velocities, moving_side, storage},
     cell_kernels::CellDispatch,
     fluid::{Dispatch, in_plane},
 };
@@ -332,9 +332,11 @@ impl Lattice {
             let (lower, _) = in_plane(axis);
             let row = self.grid.cells[lower];
             let of = |[x, y]: &[u32; 2]| velocities[(x + row * y) as usize];
+            let normal = inlet.places.iter().map(|place| f64::from(of(place)[axis]));
+            let normal = normal.sum::<f64>() / inlet.places.len() as f64;
+            let open = inlet_velocities(&self.setup, &self.grid, axis, side);
+            let of = |[x, y]: &[u32; 2]| open[(x + row * y) as usize];
             let mean: Vec<[f32; 3]> = inlet.places.iter().map(of).collect();
-            let normal: f64 = mean.iter().map(|u| f64::from(u[axis])).sum();
-            let normal = normal / mean.len() as f64;
             let advance = (normal * PER_CELL).round() as i64 as u32;
             let intensity = (turbulence.intensity * normal.abs()) as f32;
             queue.write_buffer(&inlet.mean_velocity, 0, bytemuck::cast_slice(&mean));

@@ -22,7 +22,14 @@ fn advect(n: u32, particle: Particle) {
         moved[n] = Particle(here.at, here.id, vec3(0.0), 0.0);
         return;
     }
-    let at = wrapped(here.at + vec3<i32>(round(clock.step * here.velocity / QUANTUM)));
+    let unwrapped = here.at + vec3<i32>(round(clock.step * here.velocity / QUANTUM));
+    let at = wrapped(unwrapped);
+    if (any(unwrapped != at)) {
+        let crossing = sign(unwrapped - at);
+        atomicAdd(&clock.crossings_x, crossing.x);
+        atomicAdd(&clock.crossings_y, crossing.y);
+        atomicAdd(&clock.crossings_z, crossing.z);
+    }
     let from_ = vec3(KEPT_FROM_X, KEPT_FROM_Y, KEPT_FROM_Z);
     let to = vec3(KEPT_TO_X, KEPT_TO_Y, KEPT_TO_Z);
     if (any(at < from_) || any(at >= to)) {

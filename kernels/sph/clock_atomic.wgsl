@@ -19,4 +19,7 @@ struct ClockAtomic {
     max_speed: f32,
     boundary_work: f32,
     penalty_work: f32,
+    crossings_x: atomic<i32>,
+    crossings_y: atomic<i32>,
+    crossings_z: atomic<i32>,
 }

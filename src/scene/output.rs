@@ -221,7 +221,7 @@ pub enum Quantity {
     KineticEnergy,
     /// ∫ ½ω² dV, m³/s².
     Enstrophy,
-    /// ∫ ρ dV, kg, over the cells that are not entirely solid, each in full.
+    /// ∫ ρ dV, kg, outside of static solids, blocks included.
     Mass,
     /// ∫ ρu_x dV, kg m/s, over all cells, including those inside blocks, where it oscillates from step to step. To measure the
     /// flow past blocks, use a probe on a plane.
@@ -237,7 +237,8 @@ pub enum Quantity {
     /// Body force per mass that maintains `fluid.bulk_velocity`, along its axis, in addition to `fluid.acceleration`, m/s²: the
     /// slope of the energy line is this over g.
     DrivingAcceleration,
-    /// Potential energy of particles in their gravity, relative to the time 0, J.
+    /// Potential energy of particles in their gravity, relative to the time 0, J; along a periodic axis by the distance that they
+    /// have moved.
     PotentialEnergy,
     /// Energy of compression of particles, Σ m ∫ p/ρ² dρ, relative to the time 0, J.
     CompressionEnergy,

@@ -71,7 +71,7 @@ pub enum FluidState {
     /// On a lattice.
     Lattice(Box<LatticeState>),
     /// Free water.
-    Particles(WaterState),
+    Particles(Box<WaterState>),
 }
 
 /// The state of a fluid on a lattice.

@@ -16,7 +16,8 @@ impl Simulation {
         let fluid = match &mut self.fluid {
             Some(Fluid::Lattice(fluid)) => Some(FluidState::Lattice(fluid.state().await?.into())),
             Some(Fluid::Particles(fluid)) => {
-                Some(FluidState::Particles(fluid.state(&self.scene).await?))
+                let state = fluid.state(&self.scene).await?;
+                Some(FluidState::Particles(Box::new(state)))
             }
             None => None,
         };

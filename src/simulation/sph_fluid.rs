@@ -217,7 +217,7 @@ impl SphFluid {
         let work = self.particles.work();
         WaterLedger {
             kinetic: totals.kinetic_energy,
-            potential: totals.potential_energy,
+            potential: totals.potential_energy - work.gravity,
             compression: totals.compression_energy,
             escaped: water.escaped.energy(),
             bodies: work.bodies,
@@ -314,7 +314,7 @@ fn joints_work(own: &[Load], all: &[Load], poses: &[Pose], time: f64) -> f64 {
 pub struct WaterLedger {
     /// Σ ½mv².
     pub kinetic: f64,
-    /// −Σ m g·x, from the origin of the coordinates.
+    /// −Σ m g·x, from the origin of the coordinates; x goes on continuously through the ends of periods.
     pub potential: f64,
     /// Σ m ∫ p/ρ² dρ.
     pub compression: f64,

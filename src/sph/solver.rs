@@ -276,6 +276,7 @@ impl SphSolver {
             sorts: 0,
             boundary_work: 0.0,
             penalty_work: 0.0,
+            crossings: [0; 3],
             stale: stale.into(),
             list_displacement: if stale { 0.0 } else { displacement as f32 },
             max_body_speed: (self.history.max_speed(poses) / self.grid.sound_speed()) as f32,
@@ -457,6 +458,9 @@ impl SphSolver {
             .sum::<f64>();
         self.work.penalty += self.grid.work(self.clock.penalty_work);
         self.work.boundary += self.grid.work(self.clock.boundary_work);
+        let crossings = DVec3::from_array(self.clock.crossings.map(f64::from));
+        let mass = self.setup.particle_mass();
+        self.work.gravity += mass * self.setup.gravity.dot(crossings * self.setup.size);
     }
 }
 

@@ -68,6 +68,37 @@ fn an_escaped_particle_takes_its_energy_along() {
     assert_relative(found, expected, 1e-3);
 }
 
+/// Water falls along a periodic axis, four periods far.
+#[test]
+fn gravity_works_on_water_that_passes_the_ends_of_a_period() {
+    let spacing = 0.05;
+    let mut setup = Setup::tank(DVec3::new(0.5, spacing, 0.6), spacing, 44.0);
+    setup.plane = true;
+    setup.gravity = DVec3::X * -4.0;
+    setup.faces[0] = [Side::Periodic; 2];
+    setup.faces[2][1] = Side::Open;
+    setup.bodies = vec![walls(&setup)];
+    let positions = lattice(&setup, [0, 0, 6], [4, 1, 9]);
+    let mut tank = Tank::new(
+        setup.clone(),
+        vec![resting(DVec3::ZERO)],
+        &positions,
+        |_| 0.0,
+    );
+    let first = Totals::of(&setup, &tank.water());
+    for _ in 0..50 {
+        tank.advance(0.02);
+    }
+    let last = Totals::of(&setup, &tank.water());
+    let work = tank.particles.work().gravity;
+    assert_relative(
+        last.kinetic_energy,
+        12.0 * setup.particle_mass() * 8.0,
+        1e-3,
+    );
+    assert_relative(last.energy() - first.energy(), work, 5e-3);
+}
+
 /// Works, and energies at the start and the end, of water 12 particles deep at a plate that moves into it by 0.1 m and back
 /// along a cosine, for `fraction` of the period.
 fn plate_work(fraction: f64, lossless: bool) -> (ExternalWork, [Totals; 2], f64) {

@@ -104,6 +104,9 @@ fn structures_have_the_layout_of_the_kernels() {
         ("max_speed", offset_of!(Clock, max_speed)),
         ("boundary_work", offset_of!(Clock, boundary_work)),
         ("penalty_work", offset_of!(Clock, penalty_work)),
+        ("crossings_x", offset_of!(Clock, crossings)),
+        ("crossings_y", offset_of!(Clock, crossings) + 4),
+        ("crossings_z", offset_of!(Clock, crossings) + 8),
     ];
     layout::check::<Clock>(&linked.module, "Clock", &clock).unwrap();
     let wall_work = [

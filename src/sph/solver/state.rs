@@ -19,6 +19,8 @@ pub struct ExternalWork {
     /// state of their own, so they supply the energy that a fluid in their place would lose. Most of it comes from
     /// corners, where the boundary particles of a fixed wall act on water near a moving body.
     pub boundary: f64,
+    /// Work of gravity over a period for each particle that has left one at its end and entered it at the other.
+    pub gravity: f64,
 }
 
 /// State of the solver in a checkpoint, without the particles.

@@ -149,6 +149,38 @@ fn a_periodic_end_joins_the_other_one() {
     near(&gauge.measure(&image).unwrap()[0], &[3.0]);
 }
 
+/// Blocks and cells that solids fill in part have no mark in the scene, only in the field.
+#[test]
+fn the_solid_fraction_is_that_of_the_field() {
+    for probe in [
+        "kind = \"line\"\nfrom = [0.25, 2.25, 0.75]\nto = [3.75, 2.25, 0.75]\ncount = 8\n",
+        "kind = \"plane\"\naxis = \"z\"\nposition = 0.75\n",
+    ] {
+        let scene = scene(&format!("{probe}fields = [\"solid\"]"));
+        let mut image = image(&scene);
+        let centres = scene.domain.centres();
+        let field = image.arrays[2].values.iter_mut().zip(centres);
+        field.for_each(|(value, [x, ..])| *value = value.max((x / 8.0) as f32));
+        let gauge = Gauge::new(&scene, &solid(&scene), &scene.probes[0]).unwrap();
+        for row in gauge.measure(&image).unwrap() {
+            let n = row.len();
+            let [x, y] = [row[n - 4], row[n - 3]];
+            let expected = if x > 2.0 && y < 1.0 { 1.0 } else { x / 8.0 };
+            assert_near(row[n - 1], expected, 1e-6);
+        }
+    }
+}
+
+#[test]
+fn a_point_in_the_middle_of_a_solid_cell_is_no_number() {
+    let third = 0.1 + 0.2;
+    let (_, rows) = measure(&format!(
+        "kind = \"line\"\nfrom = [3, {}, 1]\nto = [3, 2, 1]\ncount = 2\nfields = [\"pressure\"]",
+        0.75 + third - 0.3
+    ));
+    assert!(rows[0][4].is_nan() && rows[1][4].is_finite());
+}
+
 #[test]
 fn solids_carry_no_weight_and_points_inside_them_are_no_number() {
     // The block's top is y = 1, the first fluid centre above it y = 1.25.

@@ -130,7 +130,7 @@ pub(super) fn shares(cells: &Cells<'_>, at: [f64; 3]) -> Vec<Share> {
             for &(i, x_weight, x_wall) in &terms[0] {
                 let cell = cells.index([i, j, k]);
                 let weight = x_weight * y_weight * z_weight;
-                if weight > 0.0 && !cells.is_solid(cell) {
+                if weight > SLACK && !cells.is_solid(cell) {
                     shares.push(Share {
                         cell,
                         weight,

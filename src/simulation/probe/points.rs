@@ -18,8 +18,8 @@ struct Point {
     shares: Vec<Share>,
     /// What the weight of the fluid between them and the point adds to their pressure, Pa.
     weight: f64,
-    /// Whether the cell around it is solid.
-    solid: bool,
+    /// The cell around it, as an index into the list of cells; `None` in a solid.
+    own: Option<u32>,
 }
 
 impl Points {
@@ -50,7 +50,7 @@ impl Points {
                 coordinates: cells.domain.centre(ijk).to_vec(),
                 shares: if solid { vec![] } else { vec![own] },
                 weight: 0.0,
-                solid,
+                own: (!solid).then_some(cell),
             }
         });
         numbered(points.collect())
@@ -74,7 +74,8 @@ impl Points {
 impl Point {
     fn value(&self, field: Field, array: &Array, component: usize) -> f64 {
         if field == Field::Solid {
-            return f64::from(u8::from(self.solid));
+            let fraction = |cell: u32| array.values[cell as usize].into();
+            return self.own.map_or(1.0, fraction);
         }
         if self.shares.is_empty() {
             return f64::NAN;
@@ -94,25 +95,33 @@ impl Point {
 fn point(cells: &Cells<'_>, at: [f64; 3], coordinates: Vec<f64>) -> Point {
     let around = Axis::ALL.map(|axis| cells.layer(axis, at[axis.index()]));
     let shares = shares(cells, at);
+    let own = cells.index(around);
     Point {
         coordinates,
         weight: weight(cells, at, &shares),
         shares,
-        solid: cells.is_solid(cells.index(around)),
+        own: (!cells.is_solid(own)).then_some(own),
     }
 }
 
 /// The points, with their cells as indices into the returned list, in which each cell occurs once.
 fn numbered(mut points: Vec<Point>) -> (Points, Vec<u32>) {
     let shares = |points: &[Point]| -> Vec<u32> {
-        let all = points.iter().flat_map(|point| &point.shares);
-        all.map(|share| share.cell).collect()
+        let of = |point: &Point| {
+            let shared = point.shares.iter().map(|share| share.cell);
+            shared.chain(point.own).collect::<Vec<_>>()
+        };
+        points.iter().flat_map(of).collect()
     };
     let mut list = shares(&points);
     list.sort_unstable();
     list.dedup();
-    for share in points.iter_mut().flat_map(|point| &mut point.shares) {
-        share.cell = list.partition_point(|cell| *cell < share.cell) as u32;
+    let number = |cell: u32| list.partition_point(|other| *other < cell) as u32;
+    for point in &mut points {
+        point.own = point.own.map(number);
+        for share in &mut point.shares {
+            share.cell = number(share.cell);
+        }
     }
     (Points(points), list)
 }

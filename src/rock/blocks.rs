@@ -76,6 +76,7 @@ pub struct Blocks {
 
     pub(super) time: f64,
     pub(super) steps: u64,
+    pub(super) peak_speed: f64,
     pub(super) time_step: f64,
     pub(super) started: bool,
     pub(super) states: Vec<State>,
@@ -137,6 +138,7 @@ impl Blocks {
             resolver_pool: ResolverPool::new(options),
             time: 0.0,
             steps: 0,
+            peak_speed: 0.0,
             time_step,
             started: false,
             skin_references: Vec::new(),
@@ -181,6 +183,11 @@ impl Blocks {
     /// Number of steps done.
     pub fn steps(&self) -> u64 {
         self.steps
+    }
+
+    /// Largest speed of a centroid after any step since these blocks were made, m/s.
+    pub fn peak_speed(&self) -> f64 {
+        self.peak_speed
     }
 
     /// Time step of [`Blocks::step`], and the longest one of [`Blocks::advance`], s.

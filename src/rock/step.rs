@@ -220,6 +220,8 @@ impl Blocks {
                 }
             }
         }
+        let speeds = self.states.iter().map(|state| state.velocity.length());
+        self.peak_speed = speeds.fold(self.peak_speed, f64::max);
         self.time += dt;
         self.steps += 1;
         self.shorten_time_step();

@@ -71,6 +71,9 @@ fn a_driven_block_and_a_load_put_in_what_they_do() {
     // (1 − cos πt)/2π.
     let ram = blocks.poses()[1].centre.x + 1.0;
     assert_near(ram * std::f64::consts::PI, 1.0, 1e-6);
+    // The ram was fastest in the middle and is at rest at the end; the load pulls one block on.
+    let pulled = blocks.poses()[3].velocity.length();
+    assert_relative(blocks.peak_speed(), pulled.max(0.5), 1e-6);
 }
 
 /// A free block under a load that jumps at every exchange: in a step under a constant force, the block gains exactly

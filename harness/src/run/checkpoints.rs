@@ -84,6 +84,9 @@ impl Recorder for Checkpoints {
             return Ok(());
         }
         let begin = Instant::now();
+        if let Some(rock) = run.rock() {
+            log.block_speed = log.block_speed.max(rock.blocks.peak_speed());
+        }
         let written = run.checkpoint(&self.path).map_err(Into::into);
         let written = written.and_then(|()| extremes::keep(&self.path, step, log));
         match written.and_then(|()| keep_scene(&self.text, &self.path)) {

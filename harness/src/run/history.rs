@@ -63,7 +63,6 @@ impl Present {
             rocks: Rocks::of(run).unwrap_or_default(),
             ..Self::default()
         };
-        log.block_speed = log.block_speed.max(present.rocks.max_speed);
         match run.simulation.kind() {
             Kind::Lattice if of_fluid => {
                 present.fluid = run.totals()?;

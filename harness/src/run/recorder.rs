@@ -51,7 +51,7 @@ pub struct RunLog {
     pub checkpoint: Option<(u64, PathBuf)>,
     /// Largest observed speed of the fluid, m/s.
     pub max_speed: f64,
-    /// Largest observed speed of a block's centroid, m/s.
+    /// Largest speed of a block's centroid until the last checkpoint, m/s.
     pub block_speed: f64,
     /// Factors of safety of the blocks whose probes request them.
     pub safety: Vec<Safety>,

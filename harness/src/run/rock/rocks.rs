@@ -64,7 +64,7 @@ impl Rocks {
             seconds: 0.0,
             sub_step: blocks.time_step().min(run.time_step()),
             max_speed: rock.max_speed(),
-            max_speed_seen: rock.max_speed(),
+            max_speed_seen: blocks.peak_speed().max(rock.max_speed()),
             energy_error: rock.of_turnover(&ledger, ledger.balance() - rock.start.balance()),
             contact_loss: rock.of_turnover(&ledger, ledger.contact_loss - rock.start.contact_loss),
             ledger,
@@ -81,7 +81,7 @@ impl Rocks {
         let now = Self::of(run)?;
         let warm = throughput.warm();
         Some(Self {
-            max_speed_seen: log.block_speed.max(now.max_speed),
+            max_speed_seen: log.block_speed.max(now.max_speed_seen),
             seconds: throughput.whole().time.as_secs_f64(),
             steps_a_second: warm.rate(warm.steps),
             ..now

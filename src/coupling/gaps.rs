@@ -68,7 +68,7 @@ pub(crate) async fn gaps(
     for pair in broadphase.pairs(&items).await? {
         let [a, b] = pair.map(|part| part as usize);
         let width = distance(&placed[a], &placed[b]);
-        if width < cell {
+        if width < cell * (1.0 - CLOSED_GAP) {
             // Images are the last items.
             let mut blocks = [owners[a], owners[b]];
             blocks.sort_unstable();

@@ -57,7 +57,8 @@ pub enum Boundary {
     Periodic,
     /// No slip; particles without viscosity slide along it.
     Wall {
-        /// Velocity of the wall, m/s; its component normal to the face is 0. Default at rest.
+        /// Velocity of the wall, m/s; its component normal to the face is 0. Default at rest; with particles at rest, where driven
+        /// blocks move the water.
         #[serde(default, deserialize_with = "numbers")]
         velocity: [f64; 3],
         /// Equivalent sand roughness k_s of a wall at rest, m, for `numerics.wall_model`. Default 0, smooth.
@@ -342,17 +343,14 @@ impl Scene {
         if given.is_empty() || self.boundaries.iter().any(|(_, b)| is_pressure(b)) {
             return Ok(());
         }
-        let mask = self.solid_mask()?;
+        let solid = self.solid_fractions()?;
         let area = self.domain.cell * self.domain.cell;
         let (mut inward, mut outward) = (0.0, 0.0);
         for face in &given {
             let axis = face.axis().index();
             let velocities = self.face_velocity(*face, 0.0)?;
-            for (velocity, cell) in velocities.iter().zip(mask.face_cells(*face)) {
-                let flow = velocity[axis] * face.outward() * area;
-                if mask.is_solid(cell) {
-                    continue;
-                }
+            for (velocity, cell) in velocities.iter().zip(solid.mask.face_cells(*face)) {
+                let flow = velocity[axis] * face.outward() * area * solid.open(cell);
                 if flow > 0.0 {
                     outward += flow;
                 } else {

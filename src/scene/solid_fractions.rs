@@ -22,6 +22,18 @@ pub struct SolidFractions {
     pub partial: Vec<(u32, f32)>,
 }
 
+impl SolidFractions {
+    /// The fraction of a cell that the solids leave open.
+    pub fn open(&self, cell: [u32; 3]) -> f64 {
+        if self.mask.is_solid(cell) {
+            return 0.0;
+        }
+        let index = self.mask.index(cell) as u32;
+        let found = self.partial.binary_search_by_key(&index, |(cell, _)| *cell);
+        found.map_or(1.0, |place| 1.0 - f64::from(self.partial[place].1))
+    }
+}
+
 impl Scene {
     /// The cells that the solids of the scene fill, entirely or partially. If several solids cut a cell, their fractions add
     /// up, to at most one. Cells at pressure faces are entirely solid from one half on, and fluid below.

@@ -32,6 +32,15 @@ impl Scene {
                 ),
             );
         }
+        let half_space = |solid: &Solid| matches!(solid.shape, Shape::HalfSpace { .. });
+        if !self.has_fluid() && self.domain.is_given() && !self.solids.iter().any(half_space) {
+            warn(
+                "domain".into(),
+                "without [fluid] it only bounds half-spaces in [[solids]], of which there are none: blocks leave it, and nothing \
+                 repeats; remove it, or add fixed blocks as walls"
+                    .into(),
+            );
+        }
         let (hold, length) = (self.coupling.hold, self.run.length(time_step));
         if self.has_blocks() && hold > 0.0 && hold >= length {
             warn(

@@ -19,6 +19,13 @@ fn text_of(bytes: &[u8]) -> Result<&str, String> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
+/// Whether spaces or semicolons separate the numbers of a row, so that commas inside of them are not separators.
+fn has_decimal_commas(row: &str) -> bool {
+    let words = row.split([' ', '\t', ';']).filter(|word| !word.is_empty());
+    let inside = |word: &str| word.trim_end_matches(',').contains(',');
+    words.clone().count() > 1 && words.clone().any(inside)
+}
+
 /// Reads x, y and z of one node per line, in any order, separated by spaces, commas or semicolons. Lines before the first node
 /// that are not numbers are column names; lines that begin with # are comments.
 pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
@@ -33,6 +40,11 @@ pub(super) fn read_xyz(bytes: &[u8]) -> Result<Terrain, String> {
             .split([' ', '\t', ',', ';'])
             .filter(|word| !word.is_empty());
         let numbers: Result<Vec<f64>, _> = words.map(str::parse).collect();
+        if numbers.is_ok() && has_decimal_commas(row) {
+            return Err(format!(
+                "line {line} is `{row}`, with decimal commas; write decimal points"
+            ));
+        }
         match numbers.as_deref() {
             Ok([x, y, z, ..]) if x.is_finite() && y.is_finite() => points.push([*x, *y, *z]),
             Err(_) if points.is_empty() => {}

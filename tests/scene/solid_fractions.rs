@@ -221,6 +221,8 @@ fn terrain_that_is_none_is_refused() {
     refused(of("bed.dem", ""), &["bed.dem", ".xyz, .asc or .tif"]);
     write("words.xyz", "0 0 1\n1 0 b\n");
     refused(of("words.xyz", ""), &["words.xyz", "line 2"]);
+    write("commas.xyz", "0,5 0,5 1,0\n1,5 0,5 1,0\n");
+    refused(of("commas.xyz", ""), &["commas.xyz", "line 1", "decimal"]);
     write("scattered.xyz", "0 0 1\n1 0 1\n0 1 1\n1.37 1 1\n");
     refused(of("scattered.xyz", ""), &["scattered.xyz", "resample"]);
     write("sparse.xyz", "0 0 1\n0.01 0.01 1\n1 1 1\n2 2 1\n");

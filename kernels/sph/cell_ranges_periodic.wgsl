@@ -43,5 +43,8 @@ fn separation(a: vec3<i32>, b: vec3<i32>) -> vec3<f32> {
 fn wrapped(at: vec3<i32>) -> vec3<i32> {
     let period = vec3(PERIOD_X, PERIOD_Y, PERIOD_Z);
     let modulus = max(period, vec3(1));
-    return select(at, (at % modulus + modulus) % modulus, period > vec3(0));
+    // Of negative numbers % is undefined in GLSL.
+    let over = abs(at) % modulus;
+    let inside = select(over, modulus - over, (at < vec3(0)) & (over > vec3(0)));
+    return select(at, inside, period > vec3(0));
 }

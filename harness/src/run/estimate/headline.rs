@@ -140,8 +140,11 @@ fn last_mean(table: &Table, values: &[f64]) -> Option<f64> {
 /// The unit of a measured quantity.
 pub fn unit(quantity: &str) -> &'static str {
     match quantity {
-        "velocity" => "m/s",
-        "pressure" | "joint_pressure" | "von_mises" => "Pa",
+        "velocity" | "mean_velocity" => "m/s",
+        "pressure" | "mean_pressure" | "pressure_rms" | "joint_pressure" | "von_mises" => "Pa",
+        "impulse" => "Pa s",
+        "turbulent_kinetic_energy" => "m²/s²",
+        name if name.starts_with("reynolds_stress") => "m²/s²",
         name if name.starts_with("stress") => "Pa",
         "density" => "kg/m³",
         "eddy_viscosity" => "m²/s",
@@ -155,6 +158,7 @@ pub fn unit(quantity: &str) -> &'static str {
         "torque" | "fluid_torque" => "N m",
         "strain_energy" => "J",
         "area" => "m²",
+        "volume" => "m³",
         _ => "",
     }
 }

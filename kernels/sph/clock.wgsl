@@ -37,8 +37,8 @@ struct Clock {
     // force.
     boundary_work: f32,
     penalty_work: f32,
-    // Particles that have passed the upper end of a period since the start of the exchange, less those that have passed
-    // the lower end.
+    // Particles that crossed the periodic boundary of each axis upwards since the start of the exchange, less those
+    // downwards.
     crossings_x: i32,
     crossings_y: i32,
     crossings_z: i32,

@@ -16,6 +16,7 @@ use crate::{
     Result,
     gpu::buffers::{filled, zeroed},
 };
+use std::borrow::Cow;
 
 /// The device memory of a fluid; what a setup does not use is not there.
 #[derive(Debug)]
@@ -284,23 +285,24 @@ pub(super) fn wall_velocities(
 
 /// Velocities of the cells of a velocity face, lower axis fastest, times the fraction of the cell that static solids leave open:
 /// the flow through the face is that through its open area. Empty for other faces.
-pub(super) fn inlet_velocities(
-    setup: &Setup,
+pub(super) fn inlet_velocities<'a>(
+    setup: &'a Setup,
     grid: &Grid,
     axis: usize,
     side: usize,
-) -> Vec<[f32; 3]> {
-    let Face::Velocity(given) = &setup.faces[axis][side] else {
-        return Vec::new();
+) -> Cow<'a, [[f32; 3]]> {
+    let mut velocities: Cow<'a, [[f32; 3]]> = match &setup.faces[axis][side] {
+        Face::Velocity(given) => Cow::Borrowed(given),
+        _ => return Cow::default(),
     };
-    let (mut velocities, [nx, ny, _]) = (given.clone(), grid.cells);
+    let [nx, ny, _] = grid.cells;
     let (a, b) = in_plane(axis);
     let layer = [0, grid.cells[axis] - 1][side];
     for solid in &setup.surface {
         let n = solid.cell;
         let at = [n % nx, n / nx % ny, n / (nx * ny)];
         if at[axis] == layer {
-            let velocity = &mut velocities[(at[a] + grid.cells[a] * at[b]) as usize];
+            let velocity = &mut velocities.to_mut()[(at[a] + grid.cells[a] * at[b]) as usize];
             *velocity = velocity.map(|u| u * (1.0 - solid.fraction));
         }
     }

@@ -314,7 +314,7 @@ fn joints_work(own: &[Load], all: &[Load], poses: &[Pose], time: f64) -> f64 {
 pub struct WaterLedger {
     /// Σ ½mv².
     pub kinetic: f64,
-    /// −Σ m g·x, from the origin of the coordinates; x goes on continuously through the ends of periods.
+    /// −Σ m g·x, from the origin of the coordinates; x is continuous across periodic boundaries.
     pub potential: f64,
     /// Σ m ∫ p/ρ² dρ.
     pub compression: f64,

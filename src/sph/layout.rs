@@ -112,8 +112,7 @@ pub struct Clock {
     pub boundary_work: f32,
     /// Work of the penalty force since the start of the exchange, m c₀².
     pub penalty_work: f32,
-    /// Particles that have passed the upper end of a period along each axis since the start of the exchange, less those that
-    /// have passed the lower end.
+    /// Particles that crossed the periodic boundary of each axis upwards since the start of the exchange, less those downwards.
     pub crossings: [i32; 3],
 }
 

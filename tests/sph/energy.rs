@@ -70,7 +70,7 @@ fn an_escaped_particle_takes_its_energy_along() {
 
 /// Water falls along a periodic axis, four periods far.
 #[test]
-fn gravity_works_on_water_that_passes_the_ends_of_a_period() {
+fn gravity_works_on_water_that_crosses_a_periodic_boundary() {
     let spacing = 0.05;
     let mut setup = Setup::tank(DVec3::new(0.5, spacing, 0.6), spacing, 44.0);
     setup.plane = true;

@@ -107,11 +107,11 @@ fn point(cells: &Cells<'_>, at: [f64; 3], coordinates: Vec<f64>) -> Point {
 /// The points, with their cells as indices into the returned list, in which each cell occurs once.
 fn numbered(mut points: Vec<Point>) -> (Points, Vec<u32>) {
     let shares = |points: &[Point]| -> Vec<u32> {
-        let of = |point: &Point| {
+        let cells = points.iter().flat_map(|point| {
             let shared = point.shares.iter().map(|share| share.cell);
-            shared.chain(point.own).collect::<Vec<_>>()
-        };
-        points.iter().flat_map(of).collect()
+            shared.chain(point.own)
+        });
+        cells.collect()
     };
     let mut list = shares(&points);
     list.sort_unstable();

@@ -19,7 +19,7 @@ pub struct ExternalWork {
     /// state of their own, so they supply the energy that a fluid in their place would lose. Most of it comes from
     /// corners, where the boundary particles of a fixed wall act on water near a moving body.
     pub boundary: f64,
-    /// Work of gravity over a period for each particle that has left one at its end and entered it at the other.
+    /// Work of gravity over the length of the domain for each particle that crossed a periodic boundary.
     pub gravity: f64,
 }
 

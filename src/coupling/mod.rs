@@ -32,6 +32,7 @@
 
 mod added_mass;
 mod advice;
+mod async_readback;
 mod coupled;
 mod exchange;
 mod fluid_load;
@@ -43,10 +44,12 @@ mod kernel_deficit;
 mod lattice_coupling;
 mod pressure_plane;
 mod rock;
+mod strain_load;
 mod uplift;
 
 pub use added_mass::{AddedMass, InteriorInertia, MassProperties};
 pub use advice::particle_advice;
+pub use async_readback::{AsyncReadback, Copied};
 pub(crate) use coupled::couple;
 pub use coupled::{BlockCell, Coupled, Exchanges};
 pub use exchange::{ExchangeInterval, Fluid, run};
@@ -54,7 +57,7 @@ pub(crate) use exchange::{check_substep_count, longest_exchange, rock_step};
 pub use fluid_load::{Ambient, FluidLoad, LoadAverage};
 pub use gaps::Gap;
 pub(crate) use joint_seal::JointSeal;
+pub use lattice_coupling::CouplingState;
 pub(crate) use lattice_coupling::LatticeCoupling;
-pub use lattice_coupling::{AsyncReadback, Copied, CouplingState};
 pub use rock::{CouplingParams, InteriorFluid, Rock, RockState};
 pub use uplift::JointLoad;

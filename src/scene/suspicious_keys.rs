@@ -232,17 +232,18 @@ impl Scene {
         Some((high / size, needed))
     }
 
-    /// Accelerations of the fluid and of blocks, m/s², if their directions differ.
+    /// Accelerations of a lattice fluid and of blocks, m/s², if their directions differ; for particles every difference is reported
+    /// where the blocks are known.
     fn gravities(&self) -> Option<([f64; 3], [f64; 3])> {
         let rock = self.rock.gravity;
         let constant = self.fluid.acceleration.each_ref().map(|a| a.constant());
         let [Some(x), Some(y), Some(z)] = constant else {
             return None;
         };
-        let free = self.has_blocks() && self.has_fluid();
+        let coupled = self.has_blocks() && self.has_fluid() && !self.has_particles();
         let [a, g] = [[x, y, z], rock].map(DVec3::from_array);
         let weighs = a.length() >= GRAVITY * g.length() && g != DVec3::ZERO;
         let apart = a.angle_between(g).sin() > ROUNDED || a.dot(g) < 0.0;
-        (free && weighs && apart).then_some(([x, y, z], rock))
+        (coupled && weighs && apart).then_some(([x, y, z], rock))
     }
 }

@@ -78,10 +78,11 @@ impl FaceSums {
             for (part, outline) in (first_part[block]..).zip(&outlines[block]) {
                 for (face, plane) in (0..).zip(&outline.faces) {
                     for layer in 0..FACE_LAYERS as u32 {
-                        let reach = REACH + f64::from(layer);
+                        let heights = [0.0, REACH].map(|height| height + f64::from(layer));
                         let sees = |tile: &u32| {
                             let tile = &plan.tiles[*tile as usize];
-                            tile.part == part && reaches(tile, brick, outline.centre, plane, reach)
+                            tile.part == part
+                                && reaches(tile, brick, outline.centre, plane, heights)
                         };
                         let job = |tile| FaceJob { tile, face, layer };
                         self.jobs.extend(tiles.clone().filter(sees).map(job));
@@ -164,17 +165,18 @@ impl FaceSums {
     }
 }
 
-/// Whether a cell of a tile may be within `reach` of a face of the part about `centre` until the next search for tiles: the part
-/// may move by the skin before and after.
+/// Whether the centre of a cell of a tile may be between two heights over a face of the part about `centre` until the next search
+/// for tiles: the part may move by the skin before and after.
 fn reaches(
     tile: &Tile,
     brick: [f64; 3],
     centre: DVec3,
     (normal, distance): &(DVec3, f64),
-    reach: f64,
+    [low, high]: [f64; 2],
 ) -> bool {
     let half = 0.5 * DVec3::from_array(brick);
     let middle = DVec3::from_array(tile.cell.map(f64::from)) + half - centre;
     let height = normal.dot(middle) - distance;
-    height.abs() <= normal.abs().dot(half) + reach + 2.0 * SKIN
+    let extent = normal.abs().dot(half) + 2.0 * SKIN;
+    height + extent >= low && height - extent <= high
 }

@@ -88,6 +88,20 @@ impl Output<'_> {
         Ok(())
     }
 
+    /// All entry points of the program, with `suffix` in their names.
+    fn put_all(
+        &mut self,
+        suffix: &str,
+        program: &Program,
+        constants: &[(&'static str, f64)],
+    ) -> Outcome {
+        for entry in &program.link()?.module.entry_points {
+            let name = format!("{}_{suffix}", entry.name);
+            self.put(&name, program, &entry.name, constants)?;
+        }
+        Ok(())
+    }
+
     /// The steps of the lattice, and its single-cell kernels.
     fn lattice(&mut self) -> Outcome {
         for (storage, lanes, stored) in [(Storage::F32, 1, "f32"), (Storage::F16, 2, "f16")] {
@@ -195,37 +209,29 @@ impl Output<'_> {
             ("LINKS_OF_ROW", lattice::LINKS_OF_ROW as f64),
             ("LINKS_OF_INVOCATION", 1.0),
         ]);
-        for (file, entry) in [
-            ("links", "reflect"),
-            ("moving_wall", "move_wall"),
-            ("synthetic_turbulence", "feed_turbulence"),
-            ("wall_model", "wall_model"),
-            ("wall_model", "wall_edges"),
-            ("mark_blocks", "mark_blocks"),
-            ("block_friction", "find_faces"),
-            ("block_friction", "list_outer_cells"),
-            ("block_friction", "block_friction"),
-            ("block_friction", "clear_viscosity"),
-            ("block_friction", "list_block_faces"),
-            ("pressure_face", "hold_pressure"),
-            ("outflow", "apply_outflow"),
-            ("outflow", "store_outflow"),
-            ("exchange", "take_out"),
-            ("exchange", "bring_in"),
-            ("initialise", "initialise"),
-            ("macroscopic", "macroscopic"),
-            ("velocity_psm", "velocity_psm"),
-            ("velocity_restored", "velocity_restored"),
-            ("sums", "sum_cells"),
-            ("derive", "derive"),
-            ("gather", "gather"),
-            ("statistics", "add_observed"),
-            ("statistics", "merge_block"),
+        for file in [
+            "links",
+            "moving_wall",
+            "synthetic_turbulence",
+            "wall_model",
+            "mark_blocks",
+            "block_friction",
+            "pressure_face",
+            "outflow",
+            "exchange",
+            "initialise",
+            "macroscopic",
+            "velocity_psm",
+            "velocity_restored",
+            "sums",
+            "derive",
+            "gather",
+            "statistics",
         ] {
             let program = single_cells(&setup, 1, file)
                 .slot("quantity", "quantity_eddy_viscosity")
                 .slot("sample", "sample_populations");
-            self.put(&format!("{entry}_{stored}"), &program, entry, &constants)?;
+            self.put_all(stored, &program, &constants)?;
         }
         if setup.storage == Storage::F32 {
             self.sloping_faces(&setup, constants)?;
@@ -241,19 +247,8 @@ impl Output<'_> {
     ) -> Outcome {
         constants.retain(|(name, _)| *name != "SLOPING");
         constants.push(("SLOPING", 1.0));
-        for (file, entry) in [
-            ("block_friction", "list_block_faces"),
-            ("sloping_friction", "find_slopes"),
-            ("sloping_friction", "slope_law"),
-            ("sloping_friction", "sloping_friction"),
-            ("sloping_friction", "clear_above_slopes"),
-            ("surface_friction", "surface_law"),
-            ("surface_friction", "surface_shares"),
-            ("surface_friction", "surface_viscosity"),
-            ("surface_friction", "surface_friction"),
-        ] {
-            let program = single_cells(setup, 1, file);
-            self.put(&format!("{entry}_sloping"), &program, entry, &constants)?;
+        for file in ["block_friction", "sloping_friction", "surface_friction"] {
+            self.put_all("sloping", &single_cells(setup, 1, file), &constants)?;
         }
         Ok(())
     }

@@ -3,17 +3,18 @@
 // needs velocity, $equilibrium
 
 // Converts the moments of f_eq(rho, u_s) - f to those of the operator; returns the factor of rho u_s in its momentum.
-// In the interior of a block the equilibrium replaces all populations: noise there would be reflected forever.
+// f_eq(rho, u_s) - f replaces all of it in the interior of a block, and the part `damping` elsewhere.
 fn solid_operator(
     shear_rate: Real,
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,
     interior: Mask,
+    damping: Real,
     s: ptr<function, array<Real, 27>>,
 ) -> Real {
-    let odd = select(Real(2.0), Real(1.0), interior);
-    let even = select(Real(0.0), Real(1.0), interior);
+    let even = select(damping, Real(1.0), interior);
+    let odd = 2.0 - even;
     for (var k = 1u; k < 27u; k++) { // unroll
         if ((k % 3u + (k / 3u) % 3u + k / 9u) % 2u == 1u) {
             (*s)[k] *= odd;

@@ -2,13 +2,14 @@
 // needs velocity, $equilibrium
 
 // Converts the moments of f_eq(rho, u_s) - f to those of the operator; returns the factor of rho u_s in its momentum.
-// In the interior of a block the equilibrium replaces all populations.
+// f_eq(rho, u_s) - f replaces all of it in the interior of a block.
 fn solid_operator(
     shear_rate: Real,
     rho: Real,
     u: Vector,
     h: ptr<function, array<Real, 27>>,
     interior: Mask,
+    damping: Real,
     s: ptr<function, array<Real, 27>>,
 ) -> Real {
     let q = equilibrium(rho, u);

@@ -40,7 +40,7 @@ fn collide_with_solid(
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }
-    _ = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, Mask(false), &s);
+    _ = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, Mask(false), Real(0.0), &s);
     *h = s;
     let open = solid_weight(psm.fraction, tau_minus_half, odd_rate);
     let closure = closure_of(psm.fraction);

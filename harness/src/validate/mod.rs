@@ -178,6 +178,7 @@ pub const CASES: &[Case] = &[
     short("solids/array-map", "error of the drag of the array over resolution and relaxation time", solids::array::map),
     short("solids/cubes", "drag of arrays of cubes, along the grid and turned, and of a polyhedron", solids::cubes::run),
     short("solids/rotation", "torque on a sphere that turns in a viscous fluid", solids::sphere::rotation),
+    short("solids/turning", "a sphere that turns twice disturbs neither the fluid outside nor its own cells", solids::sphere::turning),
     short("solids/release", "acceleration of a sphere that is let go: its added mass", solids::sphere::release),
     short("solids/buoyancy", "buoyancy of a block at rest in a closed tank", solids::buoyancy::archimedes),
     short("solids/neutral", "a cube as heavy as water stays where it is", solids::buoyancy::neutral),

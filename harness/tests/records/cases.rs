@@ -68,6 +68,7 @@ fn deformable_blocks() {
 fn blocks_in_still_water_on_the_lattice() {
     assert_pass("solids/buoyancy");
     assert_pass("solids/neutral");
+    assert_pass("solids/turning");
 }
 
 #[test]

@@ -268,7 +268,7 @@ impl Twin {
         let Some((operator, cells)) = &self.blocks else {
             return [0.0; Q];
         };
-        let how = (*operator, cells[cell].deep);
+        let how = (*operator, cells[cell].damping(*operator));
         let (f, force) = (&self.f[cell], self.force_at(cell));
         let slides = match cells[cell].shares > 0.0 {
             true => self.sliding_velocity(cell, u_s),

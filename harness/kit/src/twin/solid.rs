@@ -101,6 +101,18 @@ impl Solid {
         }
     }
 
+    /// Part of Ω^s that the equilibrium replaces: all deep inside, and with Holdych's operator |u_x| + |u_y| + |u_z| in full cells.
+    pub fn damping(&self, operator: SolidOperator) -> f64 {
+        if self.deep {
+            return 1.0;
+        }
+        if operator != SolidOperator::Holdych {
+            return 0.0;
+        }
+        let speed: f64 = self.velocity.iter().map(|u| u.abs()).sum();
+        speed.min(1.0) * tightness(self.fraction)
+    }
+
     /// Velocity from which the eddy viscosity is computed: the mean of fluid and solid, by the solid fraction.
     pub fn mean_velocity(&self, u: [f64; 3]) -> [f64; 3] {
         let e = self.fraction;
@@ -116,11 +128,11 @@ pub(super) fn third_order_rate(config: &Config, tau: f64) -> f64 {
     }
 }
 
-/// Ω^s of a solid that moves with `u_s`, in a cell with the relaxation time `tau`. Deep inside, the equilibrium of the
-/// solid replaces all populations.
+/// Ω^s of a solid that moves with `u_s`, in a cell with the relaxation time `tau`; the equilibrium of the solid replaces the part
+/// `damping` of all populations.
 pub fn solid_change(
     config: &Config,
-    (operator, deep): (SolidOperator, bool),
+    (operator, damping): (SolidOperator, f64),
     f: &[f64; Q],
     force: [f64; 3],
     tau: f64,
@@ -131,14 +143,12 @@ pub fn solid_change(
     let solid = equilibrium(config.equilibrium, rho, u_s);
     std::array::from_fn(|i| {
         let r = OPPOSITE[i];
-        if deep {
-            return solid[i] - f[i];
-        }
-        match operator {
+        let change = match operator {
             SolidOperator::Holdych => f[r] - solid[r] - f[i] + solid[i],
             SolidOperator::Noble => f[r] - fluid[r] - f[i] + solid[i],
             SolidOperator::Superposition => solid[i] - f[i] + (1.0 - 1.0 / tau) * (f[i] - fluid[i]),
-        }
+        };
+        (1.0 - damping) * change + damping * (solid[i] - f[i])
     })
 }
 

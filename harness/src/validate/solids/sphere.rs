@@ -1,7 +1,7 @@
 //! A sphere in fluid at rest: released, and rotating.
 
 use crate::validate::{
-    CaseContext, Outcome,
+    CaseContext, Method, Outcome,
     tank::{self, Tank, block, numbers},
 };
 use riprap::scene::{BlockShape, Motion};
@@ -141,6 +141,30 @@ pub fn rotation(context: &CaseContext) -> Outcome {
         records.push(trial.relative(quantity, torque.z / exact, 1.0, limit));
         let across = torque.truncate().length() / exact.abs();
         records.push(trial.at_most("torque across / torque", across, 1e-3));
+    }
+    Ok(records)
+}
+
+/// Speed of the rim of a sphere that turns twice, cells per step: a Mach number of 0.1.
+const RIM: f64 = 0.06;
+
+/// A sphere turns twice: no fluid is faster than its rim, neither outside nor in the cells of the sphere.
+pub fn turning(context: &CaseContext) -> Outcome {
+    let (radius, edge, tau) = (6.0, 24, 0.6);
+    let mut records = Vec::new();
+    for method in [Method::DEFAULT, Method::SUPERPOSITION] {
+        let mut scene = tank::scene([edge; 3], tau)?;
+        let shape = BlockShape::Sphere { radius };
+        let mut sphere = block(shape, [0.5 * f64::from(edge) + 0.2; 3], Motion::Driven);
+        sphere.spin = numbers([0.6 * RIM / radius, 0.0, 0.8 * RIM / radius]);
+        scene.blocks.push(sphere);
+        method.choose(&mut scene);
+        let mut tank = Tank::fill(context, &scene)?;
+        tank.advance((2.0 * TAU * radius / RIM) as u64)?;
+        let fastest = tank.totals()?.max_speed;
+        let trial = tank.trial("turning sphere");
+        let quantity = format!("largest speed / speed of the rim, {}", method.name);
+        records.push(trial.at_most(quantity, fastest / RIM, 1.0));
     }
     Ok(records)
 }

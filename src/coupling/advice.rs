@@ -202,7 +202,8 @@ pub async fn particle_advice(
     let spacing = setup.spacing;
     if let Some(up) = (-setup.gravity).try_normalize() {
         let [low, high] = min_max(positions.iter().map(|x| up.dot(*x)));
-        let particles = (high - low) / spacing + 1.0;
+        // At the start the water is compressed by its weight.
+        let particles = ((high - low) / spacing).round() + 1.0;
         if particles < MIN_DEPTH_PARTICLES {
             warn(
                 "particles.spacing".into(),

@@ -34,6 +34,42 @@ pub struct Start {
 }
 
 impl Start {
+    /// Moves particles along the axis of the `weight` (N/m³) towards the solids below them until each has the volume of its density:
+    /// `excess` gives the density excess ρ/ρ₀ − 1 at a pressure (Pa). The pressures, those of the water above, remain.
+    ///
+    /// With the volume of the reference density, the pressure of water at rest would be higher by 2gh/c² at the depth h: the forces
+    /// of pressure hold the difference of the two volumes for another gradient.
+    pub fn compress(
+        &mut self,
+        lattice: &ParticleLattice,
+        weight: DVec3,
+        excess: impl Fn(f64) -> f64,
+    ) {
+        let axis = weight.abs().max_position();
+        let up = -weight[axis].signum();
+        let (aside, across) = ((axis + 1) % 3, (axis + 2) % 3);
+        let place = |x: &DVec3| {
+            let x = ((*x - lattice.low) / lattice.spacing).floor();
+            (x[aside] as i64, x[across] as i64, (up * x[axis]) as i64)
+        };
+        let places: Vec<_> = self.positions.iter().map(place).collect();
+        let mut order: Vec<usize> = (0..places.len()).collect();
+        order.par_sort_unstable_by_key(|&index| places[index]);
+        let mut below = None;
+        let mut sunk = 0.0;
+        for index in order {
+            let (first, second, height) = places[index];
+            if below != Some((first, second, height - 1)) {
+                sunk = 0.0;
+            }
+            below = Some(places[index]);
+            let part = excess(self.pressures[index]);
+            let half = 0.5 * lattice.spacing * part / (1.0 + part);
+            self.positions[index][axis] -= up * (sunk + half);
+            sunk += 2.0 * half;
+        }
+    }
+
     /// Displaces particles under pressure by at most `disorder` spacings along each axis, because a regular lattice under
     /// pressure resists shear, and adapts their pressures with the specific `weight` (N/m³).
     pub fn add_disorder(&mut self, disorder: f64, lattice: &ParticleLattice, weight: DVec3) {

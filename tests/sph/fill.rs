@@ -3,6 +3,7 @@
 use crate::start::{DX, Initial, error_of, is_on_lattice, scene, tank};
 use glam::DVec3;
 use kit::assert_relative;
+use riprap::scene::build::particle_lattice;
 
 #[test]
 fn a_box_of_water_in_a_tank_loses_no_particle_to_its_walls() {
@@ -28,6 +29,25 @@ fn the_initial_pressure_is_hydrostatic() {
     for (x, p) in initial.start.positions.iter().zip(&initial.start.pressures) {
         let exact = 1000.0 * 9.81 * (0.5 - x.z);
         assert!((p - exact).abs() < 1e-9 * 4905.0, "{x}: {p}");
+    }
+}
+
+/// A column of volumes 1/(1 + p/(ρc²)) stands on the floor; its pressures, the weight above, do not change.
+#[test]
+fn compressed_particles_have_the_volume_of_their_density() {
+    let scene = tank("").unwrap();
+    let mut start = Initial::of(&scene).start;
+    let pressures = start.pressures.clone();
+    let unit = 1000.0 * 8.0_f64.powi(2);
+    let lattice = particle_lattice(&scene).unwrap();
+    start.compress(&lattice, DVec3::NEG_Z * 9810.0, |p| p / unit);
+    assert_eq!(start.pressures, pressures);
+    for (x, p) in start.positions.iter().zip(&start.pressures) {
+        let row = ((0.5 - p / 9810.0) / DX).floor() as usize;
+        let part = |k: usize| 1.0 / (1.0 + 9810.0 * (0.475 - DX * k as f64) / unit);
+        let below: f64 = (0..row).map(part).sum();
+        let exact = DX * (below + 0.5 * part(row));
+        assert!((x.z - exact).abs() < 1e-12, "{x}: {exact}");
     }
 }
 

@@ -71,6 +71,23 @@ fn points(path: &Path) -> Result<String, String> {
     if x.is_empty() {
         return refused("it has no numbers under its line of names");
     }
+    let bad = |(x, y): (&f64, &f64)| !x.is_finite() || !y.is_finite();
+    if let Some(row) = x.iter().zip(y).position(bad) {
+        return refused(&format!(
+            "row {} under the line of names is {}, {}; give finite numbers",
+            row + 1,
+            x[row],
+            y[row]
+        ));
+    }
+    if let Some(row) = x.windows(2).position(|pair| pair[1] <= pair[0]) {
+        return refused(&format!(
+            "{first} ascends from row to row, and in row {} under the line of names {} follows {}; sort the rows, and remove doubles",
+            row + 2,
+            x[row + 1],
+            x[row]
+        ));
+    }
     let pairs: Vec<String> = x
         .iter()
         .zip(y)

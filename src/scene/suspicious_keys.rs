@@ -1,6 +1,9 @@
 //! Warnings about keys that are valid, but probably not as intended.
 
-use super::{Advice, Block, BlockShape, Motion, ProbePlace, Scene, Shape, Solid, Warning};
+use super::{
+    Advice, Block, BlockShape, Boundary, Face, Material, Motion, ProbePlace, Scene, Shape, Solid,
+    Warning,
+};
 use crate::formula::Formula;
 use glam::DVec3;
 use std::f64::consts::PI;
@@ -59,6 +62,19 @@ impl Scene {
                 format!(
                     "blocks meet the fluid every {exchange:.3e} s and the run ends at {length:.6} s: none of them will react to \
                      it; take less, or run longer"
+                ),
+            );
+        }
+        if let Some((face, speed, pressure, number)) = self.impulsive_start(time_step) {
+            let axis = face.axis().index();
+            let through = self.domain.size[axis] / speed;
+            warn(
+                "coupling.hold".into(),
+                format!(
+                    "is 0, and the water enters with {speed} m/s at {} from t = 0: this sends a pressure wave of ρcU = {pressure:.2e} Pa, more \
+                     than the submerged weight of blocks[{number}] over its area; hold the blocks until the flow has developed (hold = {through:.2e} is \
+                     one passage), or let the velocity grow from 0, as with min(1, t/{through:.2e})",
+                    face.name()
                 ),
             );
         }
@@ -160,6 +176,47 @@ impl Scene {
         advice
     }
 
+    /// The velocity face of the lattice that sends the largest pressure wave at t = 0, its normal speed (m/s), that pressure ρcU (Pa),
+    /// and the free block, a box or sphere, for which it is larger than the submerged weight over the area.
+    fn impulsive_start(&self, time_step: f64) -> Option<(Face, f64, f64, usize)> {
+        if !self.has_fluid() || self.has_particles() || self.coupling.hold > 0.0 {
+            return None;
+        }
+        let middle = self.centre(self.cells().map(|n| n / 2));
+        let speed = |(face, boundary): (Face, &Boundary)| match boundary {
+            Boundary::Velocity { velocity, .. } => {
+                let normal = &velocity[face.axis().index()];
+                Some((face, normal.eval_at(middle, 0.0).abs()))
+            }
+            _ => None,
+        };
+        let inlets = self.boundaries.iter().filter_map(speed);
+        let (face, speed) = inlets.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let sound = self.domain.cell / time_step / 3.0_f64.sqrt();
+        let pressure = self.fluid.density * sound * speed;
+        let gravity = DVec3::from_array(self.rock.gravity).length();
+        let is_light = |block: &Block| {
+            let height = match &block.shape {
+                BlockShape::Sphere { radius } => 4.0 / 3.0 * radius,
+                BlockShape::Box { size: [a, b, c] } => a.min(*b).min(*c),
+                _ => return false,
+            };
+            let density = self.material_of(block).map_or(0.0, |one| one.density);
+            let weight = (density - self.fluid.density).max(0.0) * gravity * height;
+            block.motion == Motion::Free && pressure > weight
+        };
+        let number = self.blocks.iter().position(is_light)?;
+        (speed > 0.0).then_some((face, speed, pressure, number))
+    }
+
+    /// The material of a block, by default the first one.
+    fn material_of(&self, block: &Block) -> Option<&Material> {
+        match &block.material {
+            Some(name) => self.materials.iter().find(|one| one.name == *name),
+            None => self.materials.first(),
+        }
+    }
+
     /// Whether a box in the domain of a lattice contains the centre of no cell, and fills none in part.
     fn is_lost_between_cells(&self, solid: &Solid) -> bool {
         let Shape::Box { min, max } = &solid.shape else {
@@ -188,10 +245,7 @@ impl Scene {
     /// sphere the circle that the plane cuts out, π u (2R − u), but not less than `rock.corner_area` (2R)². In a fluid the
     /// weight is the submerged weight.
     fn sinks(&self, block: &Block) -> Option<(f64, f64)> {
-        let material = match &block.material {
-            Some(name) => self.materials.iter().find(|one| one.name == *name),
-            None => self.materials.first(),
-        }?;
+        let material = self.material_of(block)?;
         if block.motion != Motion::Free {
             return None;
         }

@@ -241,7 +241,11 @@ fn formulas_take_series_from_files_beside_the_scene() {
             vec!["boundaries.x_min.velocity", "3 columns"],
         ),
         ("time,a\n0,one\n", vec!["line 2", "`one` is not a number"]),
-        ("time,a\n5,1\n0,1\n", vec!["ascend, and 0 follows 5"]),
+        (
+            "time,a\n5,1\n0,1\n",
+            vec!["flow.csv: time ascends", "row 2", "0 follows 5"],
+        ),
+        ("time,a\n0,1\n1,NaN\n", vec!["flow.csv: row 2", "finite"]),
         ("time,a\n5,1\n", vec!["at least two points"]),
         ("time,a\n", vec!["flow.csv: it has no numbers"]),
     ] {

@@ -12,8 +12,8 @@ use crate::{
 };
 use glam::DVec3;
 
-/// Length of a block in periods above which it counts as longer than the period: 1 plus the rounding of scenes.
-const FILLED: f64 = 1.0 + 1e-9;
+/// Length of a block in periods above which it counts as longer than the period: 1 plus the rounding of f32 coordinates of meshes.
+const FILLED: f64 = 1.0 + 1e-6;
 
 /// Gap between a face of a block and the opposite face of its image, in periods, below which the block does not turn about
 /// other axes: contacts of a block with its own images are not computed.

@@ -99,11 +99,6 @@ impl<'a> Coupled<'a> {
         Self { rock, coupling }
     }
 
-    /// Whether a block can move at all.
-    pub fn moves(&self) -> bool {
-        self.rock.moves()
-    }
-
     /// The load of the exterior fluid on each block at the last exchange: [`Rock::external_load`].
     pub fn external_load(&self) -> &'a [FluidLoad] {
         self.rock.external_load()

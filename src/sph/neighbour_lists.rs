@@ -9,7 +9,7 @@ use crate::{
     gpu::{
         bins::{Scan, ScanOf, WORKGROUP, at_most},
         buffers::{uniform, zeroed},
-        kernel::Kernel,
+        kernel::{Kernel, largest_binding},
     },
 };
 use std::f64::consts::PI;
@@ -124,10 +124,7 @@ impl NeighbourLists {
         }
         let lists = kernel(passes.kernels.lists)?;
         let counts = zeroed(device, "neighbour counts", 8 * u64::from(count.max(1)));
-        let limits = device.limits();
-        let most = limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size);
+        let most = largest_binding(&device.limits());
         // The lists of a workgroup are interleaved, so a range is a whole number of workgroups.
         let group = u64::from(4 * WORKGROUP * capacity);
         let fits = u32::try_from(most / group)

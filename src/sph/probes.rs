@@ -6,7 +6,7 @@ use crate::{
     gpu::{
         bins::{WORKGROUP, at_most},
         buffers::zeroed,
-        kernel::Kernel,
+        kernel::{Kernel, largest_binding},
     },
 };
 use glam::{DMat3, DVec2, DVec3};
@@ -222,11 +222,7 @@ impl PressureProbes {
         self.count = probes.len() as u32;
         let capacity = self.memory.as_ref().map_or(0, |memory| memory.capacity);
         if self.count > capacity {
-            let limits = device.limits();
-            let most = limits
-                .max_storage_buffer_binding_size
-                .min(limits.max_buffer_size)
-                / 16;
+            let most = largest_binding(&device.limits()) / 16;
             let capacity = (2 * u64::from(self.count)).min(most);
             let buffer = zeroed(device, "pressure probes", 16 * capacity);
             let pressures = zeroed(device, "probe pressures", 4 * capacity);

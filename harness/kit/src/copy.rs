@@ -3,7 +3,10 @@
 use super::{clock::Clock, subject::Subject};
 use riprap::{
     Error,
-    gpu::{kernel::Kernel, link::Program},
+    gpu::{
+        kernel::{Kernel, largest_binding},
+        link::Program,
+    },
     wgpu,
 };
 use std::time::{Duration, Instant};
@@ -60,10 +63,7 @@ struct Piece {
 impl Copy {
     /// At least `bytes` for source and target each.
     pub fn new(device: &wgpu::Device, bytes: u64) -> Result<Self, Error> {
-        let limits = device.limits();
-        let largest = limits
-            .max_storage_buffer_binding_size
-            .min(limits.max_buffer_size);
+        let largest = largest_binding(&device.limits());
         // Whole workgroups of every kernel.
         let unit = KERNELS[2].2;
         let count = bytes.div_ceil(largest - largest % unit).max(1);

@@ -88,33 +88,12 @@ impl Mesh {
 
 /// Vertices on the unit sphere, and triangles.
 fn icosahedron() -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
-    let mut points = Vec::with_capacity(12);
-    // Three golden rectangles at right angles.
-    for [a, b] in [
-        [1.0, golden],
-        [-1.0, golden],
-        [1.0, -golden],
-        [-1.0, -golden],
-    ] {
-        points.push(DVec3::new(0.0, a, b).normalize());
-        points.push(DVec3::new(a, b, 0.0).normalize());
-        points.push(DVec3::new(b, 0.0, a).normalize());
-    }
-    // A face is three vertices that are neighbours of each other: an edge of the solid subtends an
-    // angle whose cosine is 1/√5, the next longer distance has −1/√5.
-    let neighbours = |a: usize, b: usize| points[a].dot(points[b]) > 0.0;
-    let mut triangles = Vec::with_capacity(20);
-    for a in 0..12 {
-        for b in a + 1..12 {
-            for c in b + 1..12 {
-                if neighbours(a, b) && neighbours(b, c) && neighbours(c, a) {
-                    let outwards = points[a].dot(points[b].cross(points[c])) > 0.0;
-                    let [b, c] = if outwards { [b, c] } else { [c, b] };
-                    triangles.push([a as u32, b as u32, c as u32]);
-                }
-            }
-        }
-    }
+    let shape = Polyhedron::icosahedron(1.0).expect("an edge of 1 m is valid");
+    let points = shape.vertices().iter().map(|v| v.normalize()).collect();
+    let triangles = shape
+        .loops()
+        .iter()
+        .map(|corners| [0, 1, 2].map(|k| corners[k]));
+    let triangles = triangles.collect();
     (points, triangles)
 }

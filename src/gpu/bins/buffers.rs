@@ -1,6 +1,6 @@
 //! Buffers of a search.
 
-use crate::{Error, Result};
+use crate::{Error, Result, gpu::kernel::largest_binding};
 
 /// Remedy for a search that exceeds the limits of the device.
 pub(crate) const FEWER_BOXES: &str =
@@ -11,10 +11,7 @@ pub(crate) const FEWER_BOXES: &str =
 /// # Errors
 /// [`Error::Limit`] with `remedy` if they do not.
 pub(crate) fn at_most(device: &wgpu::Device, what: &str, bytes: u64, remedy: &str) -> Result<()> {
-    let limits = device.limits();
-    let has = limits
-        .max_storage_buffer_binding_size
-        .min(limits.max_buffer_size);
+    let has = largest_binding(&device.limits());
     if bytes <= has {
         return Ok(());
     }

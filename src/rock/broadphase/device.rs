@@ -6,7 +6,7 @@ use crate::{
     gpu::{
         bins::{Bins, BinsOf, FEWER_BOXES, Scan, ScanOf, WORKGROUP, at_most},
         buffers::{uniform, zeroed},
-        kernel::Kernel,
+        kernel::{Kernel, largest_binding},
         link::Program,
         readback::Readback,
     },
@@ -321,9 +321,7 @@ impl List {
 
 /// Largest number of pairs in a binding.
 fn most(device: &wgpu::Device) -> u32 {
-    let limits = device.limits();
-    let bytes = limits
-        .max_storage_buffer_binding_size
-        .min(limits.max_buffer_size);
-    (bytes / 8).try_into().unwrap_or(u32::MAX)
+    (largest_binding(&device.limits()) / 8)
+        .try_into()
+        .unwrap_or(u32::MAX)
 }

@@ -56,6 +56,9 @@ fn expand(text: &str, dir: &Path) -> Result<String, String> {
 fn points(path: &Path) -> Result<String, String> {
     let table = Table::read(path).map_err(|error| error.to_string())?;
     let refused = |why: &str| Err(format!("{}: {why}", path.display()));
+    if matches!(&table.columns[..], [(name, _)] if name.is_empty()) {
+        return refused("it is empty; give two columns of numbers under one line of names");
+    }
     let [(first, x), (second, y)] = &table.columns[..] else {
         return refused(&format!(
             "it has {} columns; a series has two, such as time and velocity, under one line of names",

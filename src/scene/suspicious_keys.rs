@@ -54,6 +54,16 @@ impl Scene {
                 ),
             );
         }
+        // With a duration such a time is refused.
+        let from = self.statistics.as_ref().map(|statistics| statistics.from);
+        if let Some(from) = from.filter(|from| *from >= length) {
+            warn(
+                "statistics.from".into(),
+                format!(
+                    "is {from} s, and the run ends at {length:.6} s: nothing will be sampled; begin earlier, or run longer"
+                ),
+            );
+        }
         let exchange = f64::from(self.coupling.interval) * time_step;
         if self.has_blocks() && self.has_fluid() && self.coupling.interval > 1 && exchange >= length
         {

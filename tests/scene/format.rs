@@ -248,6 +248,7 @@ fn formulas_take_series_from_files_beside_the_scene() {
         ("time,a\n0,1\n1,NaN\n", vec!["flow.csv: row 2", "finite"]),
         ("time,a\n5,1\n", vec!["at least two points"]),
         ("time,a\n", vec!["flow.csv: it has no numbers"]),
+        ("", vec!["flow.csv: it is empty"]),
     ] {
         write(text);
         assert_contains(read().unwrap_err().to_string(), &parts);

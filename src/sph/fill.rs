@@ -37,8 +37,8 @@ impl Start {
     /// Moves particles along the axis of the `weight` (N/m³) towards the solids below them until each has the volume of its density:
     /// `excess` gives the density excess ρ/ρ₀ − 1 at a pressure (Pa). The pressures, those of the water above, remain.
     ///
-    /// With the volume of the reference density, the pressure of water at rest would be higher by 2gh/c² at the depth h: the forces
-    /// of pressure hold the difference of the two volumes for another gradient.
+    /// If particles had the volume of the reference density, the sum over V (p_i + p_j) ∇W would balance their weight only at a
+    /// pressure that is higher by the fraction 2gh/c² at the depth h.
     pub fn compress(
         &mut self,
         lattice: &ParticleLattice,

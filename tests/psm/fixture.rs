@@ -191,6 +191,17 @@ impl Subject {
         worst
     }
 
+    /// Has the twin continue from the populations of the lattice, so that rounding errors do not add up.
+    pub fn set_twin(&mut self) {
+        let found = self.rig.populations(&mut self.lattice);
+        let n = self.twin.domain.cell_count();
+        for cell in (0..n).filter(|&cell| !self.twin.domain.solid[cell]) {
+            for q in 0..Q {
+                self.twin.f[cell][q] = f64::from(found.values[q * n + cell]);
+            }
+        }
+    }
+
     /// The saturation after the fluid kernel.
     pub fn psm_planes(&self) -> Vec<f32> {
         let buffer = self.lattice.psm_planes().next().unwrap().1;

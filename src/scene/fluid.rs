@@ -72,22 +72,9 @@ impl Scene {
                     Quantity::BulkVelocity | Quantity::DrivingAcceleration
                 )
             };
-            for (index, history) in self.output.histories.iter().enumerate() {
-                if let Some(quantity) = history
-                    .quantities
-                    .iter()
-                    .find(|quantity| of_control(quantity))
-                {
-                    return refuse(
-                        format!("output.histories[{index}].quantities"),
-                        format!(
-                            "{} is of a flow with `fluid.bulk_velocity`, which this scene lacks",
-                            quantity.name()
-                        ),
-                    );
-                }
-            }
-            return Ok(());
+            return self.refuse_quantities(of_control, |name| {
+                format!("{name} is of a flow with `fluid.bulk_velocity`, which this scene lacks")
+            });
         };
         if self.has_particles() {
             return refuse(
@@ -154,19 +141,12 @@ impl Scene {
                 );
             }
         }
-        for (index, history) in self.output.histories.iter().enumerate() {
-            let wrong = |quantity: &&_| !Quantity::is_of_blocks(**quantity);
-            if let Some(quantity) = history.quantities.iter().find(wrong) {
-                return refuse(
-                    format!("output.histories[{index}].quantities"),
-                    format!(
-                        "{} is of the fluid, and there is none; for blocks there are \
-                         block_kinetic_energy, block_max_speed and others",
-                        quantity.name()
-                    ),
-                );
-            }
-        }
+        let of_fluid = |quantity: &Quantity| !quantity.is_of_blocks();
+        self.refuse_quantities(of_fluid, |name| {
+            format!(
+                "{name} is of the fluid, and there is none; for blocks there are block_kinetic_energy, block_max_speed and others"
+            )
+        })?;
         for (index, probe) in self.probes.iter().enumerate() {
             if !matches!(probe.place, ProbePlace::Block { .. }) {
                 return refuse(

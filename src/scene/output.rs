@@ -386,15 +386,23 @@ impl Scene {
             let key = format!("output.histories[{index}]");
             distinct(&format!("{key}.quantities"), &history.quantities)?;
             interval(format!("{key}.every"), history.every)?;
-            let of_blocks = history.quantities.iter().find(|q| q.is_of_blocks());
-            if let (Some(quantity), false) = (of_blocks, self.has_blocks()) {
-                return refuse(
-                    format!("{key}.quantities"),
-                    format!(
-                        "{} is of blocks, and there are none; leave it out",
-                        quantity.name()
-                    ),
-                );
+        }
+        let of_blocks = |quantity: &Quantity| quantity.is_of_blocks() && !self.has_blocks();
+        self.refuse_quantities(of_blocks, |name| {
+            format!("{name} is of blocks, and there are none; leave it out")
+        })
+    }
+
+    /// Refuses the first quantity of a history that is `wrong`, with the `message` for its name.
+    pub(super) fn refuse_quantities(
+        &self,
+        wrong: impl Fn(&Quantity) -> bool,
+        message: impl Fn(&str) -> String,
+    ) -> Result<()> {
+        for (index, history) in self.output.histories.iter().enumerate() {
+            if let Some(quantity) = history.quantities.iter().find(|one| wrong(one)) {
+                let key = format!("output.histories[{index}].quantities");
+                return refuse(key, message(quantity.name()));
             }
         }
         Ok(())

@@ -346,14 +346,10 @@ impl Scene {
         if let Some(field) = self.output.fields.iter().find(known) {
             return refuse("output.fields", unknown(field));
         }
-        for (index, history) in self.output.histories.iter().enumerate() {
-            if history.quantities.contains(&Quantity::Enstrophy) {
-                return refuse(
-                    format!("output.histories[{index}].quantities"),
-                    "particles have no enstrophy; leave it out",
-                );
-            }
-        }
+        self.refuse_quantities(
+            |quantity| *quantity == Quantity::Enstrophy,
+            |name| format!("particles have no {name}; leave it out"),
+        )?;
         for (index, probe) in self.probes.iter().enumerate() {
             let key = format!("probes[{index}]");
             match &probe.place {
@@ -408,18 +404,10 @@ impl Scene {
                 );
             }
         }
-        for (index, history) in self.output.histories.iter().enumerate() {
-            let of_particles = |quantity: &&Quantity| quantity.is_of_particles();
-            if let Some(quantity) = history.quantities.iter().find(of_particles) {
-                return refuse(
-                    format!("output.histories[{index}].quantities"),
-                    format!(
-                        "only a fluid of particles has this quantity; leave {} out",
-                        quantity.name()
-                    ),
-                );
-            }
-        }
+        self.refuse_quantities(
+            |quantity| quantity.is_of_particles(),
+            |name| format!("only a fluid of particles has this quantity; leave {name} out"),
+        )?;
         for (index, probe) in self.probes.iter().enumerate() {
             if matches!(
                 probe.place,

@@ -63,6 +63,8 @@ pub struct Blocks {
     pub(super) load_interval: f64,
     /// Whether the setup prescribes the time step.
     pub(super) given_step: bool,
+    /// ω² and index of the stiffest block by its faces.
+    pub(super) stiffest: (f64, usize),
     pub(super) skin: f64,
     pub(super) sleep: Option<Sleep>,
     pub(super) start_overlap: f64,
@@ -119,8 +121,8 @@ impl Blocks {
         check::check(&setup)?;
         let joints = check::joints(&setup);
         let (bodies, states, deforming) = body::make(&setup);
-        let (frequency_squared, _) = time_step::of_shapes(&bodies, &deforming, &joints);
-        let usual = law::longest_step(law::USUAL_SHARE, frequency_squared);
+        let stiffest = time_step::of_shapes(&bodies, &deforming, &joints);
+        let usual = law::longest_step(law::USUAL_SHARE, stiffest.0);
         let time_step = setup.time_step.unwrap_or(usual);
         let mut blocks = Self {
             skin: setup.skin.unwrap_or_else(|| usual_skin(&bodies)),
@@ -129,6 +131,7 @@ impl Blocks {
             damping: setup.damping,
             load_interval: 0.0,
             given_step: setup.time_step.is_some(),
+            stiffest,
             sleep: setup.sleep,
             start_overlap: setup.start_overlap,
             largest_overlap: setup.largest_overlap,

@@ -109,6 +109,10 @@ impl Blocks {
         let start = self.step_times.map(|times| (Instant::now(), times.contact));
         if let Err(error) = self.kick_drift(dt) {
             self.place();
+            // A step too long for the contacts may fail before there are any.
+            if self.given_step {
+                self.check_step_for(dt, self.stiffest)?;
+            }
             return Err(error);
         }
         self.finish_step(dt);
@@ -371,8 +375,12 @@ impl Blocks {
         if !self.given_step {
             return Ok(());
         }
-        let (frequency_squared, block) =
-            time_step::of_sums(&self.bodies, &self.deforming, &self.contact_sums);
+        let stiffest = time_step::of_sums(&self.bodies, &self.deforming, &self.contact_sums);
+        self.check_step_for(dt, stiffest)
+    }
+
+    /// The same for ω² and the index of the stiffest block.
+    fn check_step_for(&self, dt: f64, (frequency_squared, block): (f64, usize)) -> Result<()> {
         let bound = law::longest_step(law::LARGEST_SHARE, frequency_squared);
         if dt <= bound {
             return Ok(());

@@ -136,9 +136,9 @@ impl Coupled<'_> {
             warn(
                 "domain.cell",
                 format!(
-                    "{} gaps between blocks are narrower than a cell, the narrowest {:.2e} m ({:.2} cells) \
+                    "gaps between blocks narrower than a cell: {}, the narrowest {:.2e} m ({:.2} cells) \
                      between {a} and {b}: the grid does not resolve the flow and the pressure in them; use \
-                     cell ≤ {:.1e} m, or close them. {} pairs touch, with no water between them",
+                     cell ≤ {:.1e} m, or close them. Pairs that touch, with no water between them: {}",
                     open.len(),
                     gap.width,
                     gap.width / cell,
@@ -277,7 +277,7 @@ pub async fn particle_advice(
         warn(
             "particles.spacing".into(),
             format!(
-                "{} gaps between blocks are narrower than two spacings, the narrowest of {:.2e} m between `{first}` and \
+                "gaps between blocks narrower than two spacings: {}, the narrowest of {:.2e} m between `{first}` and \
                  `{second}`: they hold one layer of particles at most, and none below half a spacing; close them, or use \
                  a smaller spacing",
                 narrow.len(),

@@ -267,8 +267,7 @@ impl Immersion {
         lines.add(
             "joints",
             format_args!(
-                "closed ones let water through as slots of {} m; half of a change of pressure around a face of {face:.3} m is in its middle \
-                 after {} s",
+                "closed ones let water through as slots of {} m; the pressure in the middle of a face of {face:.3} m follows half of a change around it after {} s",
                 range(*apertures),
                 range(*times)
             ),

@@ -412,7 +412,7 @@ impl Kernel {
         let all = f64::from(self.workgroups) * f64::from(self.invocations);
         let open = match self.loops {
             0 => String::new(),
-            n => format!("; of {n} loops one turn is counted"),
+            n => format!("; one iteration of each of {n} loops is counted"),
         };
         format!(
             "per invocation: {} flop, {} B read, {} B written at most; all: {:.3e} flop, {}{open}",

@@ -392,7 +392,7 @@ fn check_says_what_blocks_in_a_fluid_will_run() {
         &warnings,
         &[
             "3 blocks are fewer than 8 cells across",
-            "1 gaps between blocks are narrower than a cell",
+            "gaps between blocks narrower than a cell: 1",
             "between stone and brick",
         ],
     );

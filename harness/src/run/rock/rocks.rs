@@ -130,7 +130,7 @@ impl fmt::Display for Rocks {
         write!(
             f,
             "  {} blocks, {} awake, {} contacts; {:.0} steps/s; speed {:.3e} m/s (largest seen \
-             {:.3e}); energies close to {:.1e}, contacts that ended took {:.1e}",
+             {:.3e}); error of the energy balance {:.1e}, energy lost with contacts that ended {:.1e}",
             self.blocks,
             self.awake,
             self.contacts,

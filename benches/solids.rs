@@ -124,10 +124,8 @@ impl World {
             },
         };
         let block = SolidBlock {
-            shape: shape.clone(),
-            loaded: true,
             faces: true,
-            filled: [false; 3],
+            ..SolidBlock::new(shape.clone())
         };
         let blocks = vec![block; BLOCKS.pow(3) as usize];
         let mut world = Self {

@@ -135,12 +135,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         origin: DVec3::ZERO,
         units: UNITS,
     };
-    let solids = bodies.iter().map(|body| SolidBlock {
-        shape: body.shape.clone(),
-        loaded: true,
-        faces: false,
-        filled: [false; 3],
-    });
+    let solids = bodies
+        .iter()
+        .map(|body| SolidBlock::new(body.shape.clone()));
     let mut cells = SolidCells::new(&device, &lattice, frame, solids.collect())?;
 
     // The water has no weight of its own: its pressure is relative to the hydrostatic one.

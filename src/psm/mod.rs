@@ -34,7 +34,7 @@
 //! let units = Units { cell: 0.01, time_step: 0.001, density: 1000.0 };
 //! let frame = Frame { origin: DVec3::ZERO, units };
 //! let shape = Shape::sphere(0.03)?.into();
-//! let ball = SolidBlock { shape, loaded: true, faces: false, filled: [false; 3] };
+//! let ball = SolidBlock::new(shape);
 //! let mut cells = SolidCells::new(&device, &lattice, frame, vec![ball])?;
 //!
 //! // A step: where the ball is, its cells, the bricks with them, the load, all other bricks.

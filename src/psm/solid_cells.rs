@@ -30,6 +30,18 @@ pub struct SolidBlock {
     pub filled: [bool; 3],
 }
 
+impl SolidBlock {
+    /// A block with loads, but not on its faces, and with images along all periodic axes.
+    pub fn new(shape: Arc<Shape>) -> Self {
+        Self {
+            shape,
+            loaded: true,
+            faces: false,
+            filled: [false; 3],
+        }
+    }
+}
+
 /// Work done since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CellWork {

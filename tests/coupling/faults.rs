@@ -21,12 +21,7 @@ const UNITS: Units = Units {
 };
 
 fn ball(radius: f64) -> SolidBlock {
-    SolidBlock {
-        shape: Arc::new(Shape::sphere(radius).unwrap()),
-        loaded: true,
-        faces: false,
-        filled: [false; 3],
-    }
+    SolidBlock::new(Arc::new(Shape::sphere(radius).unwrap()))
 }
 
 fn at(centre: DVec3) -> Pose {

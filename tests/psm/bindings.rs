@@ -38,10 +38,8 @@ fn run(limits: wgpu::Limits) -> (u32, Vec<u32>, Populations) {
         .unwrap()
         .into();
     let block = SolidBlock {
-        shape: Arc::new(shape),
-        loaded: true,
         faces: true,
-        filled: [false; 3],
+        ..SolidBlock::new(Arc::new(shape))
     };
     let mut cells = SolidCells::new(device, &lattice, frame, vec![block]).unwrap();
     for step in 0..6 {

@@ -218,12 +218,8 @@ fn assert_equal_to_twin(name: &str, setup: &Setup, boxes: &[Cuboid], limit: f64)
         origin: DVec3::ZERO,
         units,
     };
-    let submerged = |block: &Cuboid| SolidBlock {
-        shape: Arc::new(Polyhedron::cuboid(block.size).unwrap().into()),
-        loaded: true,
-        faces: false,
-        filled: [false; 3],
-    };
+    let submerged =
+        |block: &Cuboid| SolidBlock::new(Arc::new(Polyhedron::cuboid(block.size).unwrap().into()));
     let blocks = boxes.iter().map(submerged).collect();
     let mut immersed = SolidCells::new(&device, &subject.lattice, frame, blocks).unwrap();
     let mut boxes = boxes.to_vec();

@@ -47,12 +47,7 @@ impl World {
                 .unwrap()
                 .into(),
         ];
-        let submerged = |shape| SolidBlock {
-            shape: Arc::new(shape),
-            loaded: true,
-            faces: false,
-            filled: [false; 3],
-        };
+        let submerged = |shape| SolidBlock::new(Arc::new(shape));
         let blocks = shapes.map(submerged).into();
         let immersed = SolidCells::new(&rig.device, &lattice, frame, blocks).unwrap();
         Self {

@@ -279,12 +279,7 @@ fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
     let cells = lattice.grid().cells[0];
     let places = crowd(cells, ACROSS, 0.1);
     let shape: Arc<Shape> = Arc::new(Shape::sphere(0.5 * ACROSS)?);
-    let submerged = places.iter().map(|_| SolidBlock {
-        shape: shape.clone(),
-        loaded: true,
-        faces: false,
-        filled: [false; 3],
-    });
+    let submerged = places.iter().map(|_| SolidBlock::new(shape.clone()));
     let mut immersed = SolidCells::new(&device, &lattice, unit_frame(), submerged.collect())?;
     let velocity = DVec3::new(0.0, 0.02, 0.0);
     let (mut step, mut readback) = (0.0, Readback::default());

@@ -235,10 +235,8 @@ fn solid_fractions(turns: &InterleavedRuns, across: u32) -> anyhow::Result<f64> 
     let mut lattice = Lattice::new(device, setup)?;
     let shape: Arc<Shape> = Arc::new(Shape::sphere(0.5 * f64::from(across))?);
     let blocks = vec![SolidBlock {
-        shape,
         loaded: false,
-        faces: false,
-        filled: [false; 3],
+        ..SolidBlock::new(shape)
     }];
     let mut cells = SolidCells::new(device, &lattice, unit_frame(), blocks)?;
     let mut place = DVec3::splat(0.5 * f64::from(edge));

@@ -54,14 +54,9 @@ struct Earlier {
 pub fn run(args: &Args, stop: &AtomicBool) -> Result<bool> {
     let earlier = args.compare.as_deref().map(read).transpose()?;
     let machine = Machine::of(&gpu::pick(args.adapter.as_deref())?.get_info());
-    let temporary = std::env::temp_dir().join(format!("riprap_fingerprint_{}", std::process::id()));
-    let sums = fingerprints(args, &temporary, stop);
-    // A temporary folder that cannot be removed is no error.
-    let _ = fs::remove_dir_all(&temporary);
-    let record = Record {
-        machine,
-        sums: sums?,
-    };
+    let temporary = tempfile::tempdir().context("cannot make a temporary folder")?;
+    let sums = fingerprints(args, temporary.path(), stop)?;
+    let record = Record { machine, sums };
     if args.json {
         print::print_json(&record)?;
     } else {

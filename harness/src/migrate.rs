@@ -40,8 +40,8 @@ mod tests {
 
     #[test]
     fn check_leaves_the_file_and_a_second_run_finds_nothing() {
-        let name = format!("riprap_migrate_{}.toml", std::process::id());
-        let scene = std::env::temp_dir().join(name);
+        let folder = tempfile::tempdir().unwrap();
+        let scene = folder.path().join("scene.toml");
         let old = "[rock]\nsearch = \"host\" # few blocks\n";
         std::fs::write(&scene, old).unwrap();
         let args = |check| Args {
@@ -54,6 +54,5 @@ mod tests {
         assert!(run(&args(false)).unwrap());
         assert_eq!(read(), old.replace("search", "broadphase"));
         assert!(run(&args(true)).unwrap());
-        std::fs::remove_file(&scene).unwrap();
     }
 }

@@ -57,18 +57,15 @@ impl World {
     /// The whole state as written to files.
     fn bits(&mut self) -> Vec<u8> {
         let checkpoint = self.rig.wait(self.sim.checkpoint()).unwrap();
-        let file = std::env::temp_dir().join(format!("riprap-coupling-{}", std::process::id()));
-        checkpoint.write(&file).unwrap();
-        let bits = std::fs::read(&file).unwrap();
-        std::fs::remove_file(&file).unwrap();
-        bits
+        let file = tempfile::NamedTempFile::new().unwrap();
+        checkpoint.write(file.path()).unwrap();
+        std::fs::read(file.path()).unwrap()
     }
 
     fn load(&mut self, bits: &[u8]) {
-        let file = std::env::temp_dir().join(format!("riprap-coupling-{}", std::process::id()));
-        std::fs::write(&file, bits).unwrap();
-        let checkpoint = Checkpoint::read(&file).unwrap();
-        std::fs::remove_file(&file).unwrap();
+        let file = tempfile::NamedTempFile::new().unwrap();
+        std::fs::write(file.path(), bits).unwrap();
+        let checkpoint = Checkpoint::read(file.path()).unwrap();
         self.sim.restore(&checkpoint).unwrap();
     }
 }

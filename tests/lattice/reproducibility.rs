@@ -151,7 +151,8 @@ fn populations(checkpoint: &Checkpoint) -> &Populations {
 #[test]
 fn a_checkpoint_continues_to_the_bit_on_odd_and_even_steps() {
     let rig = Rig::new();
-    let file = std::env::temp_dir().join(format!("riprap-repeat-{}.riprap", std::process::id()));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("lattice.riprap");
     for storage in [Storage::F32, Storage::F16] {
         for (stop, wale_interval) in [(50, 2), (51, 2), (51, 1)] {
             let mut setup = setup();
@@ -175,7 +176,6 @@ fn a_checkpoint_continues_to_the_bit_on_odd_and_even_steps() {
             );
         }
     }
-    std::fs::remove_file(&file).unwrap();
 }
 
 #[test]
@@ -202,7 +202,8 @@ fn a_checkpoint_changes_lanes_and_bindings() {
 #[test]
 fn broken_checkpoints_are_refused() {
     let rig = Rig::new();
-    let file = std::env::temp_dir().join(format!("riprap-broken-{}.riprap", std::process::id()));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("lattice.riprap");
     let saved = checkpoint(run(&rig, setup(), 2).1);
     saved.write(&file).unwrap();
     let bytes = std::fs::read(&file).unwrap();
@@ -226,7 +227,6 @@ fn broken_checkpoints_are_refused() {
         let error = Checkpoint::read(&file).unwrap_err().to_string();
         assert!(error.contains(hint), "{error}");
     }
-    std::fs::remove_file(&file).unwrap();
     let mut lattice = Lattice::new(&rig.device, Setup::periodic([4, 4, 4], 0.1)).unwrap();
     let error = lattice
         .set_populations(&rig.device, &rig.queue, populations(&saved))

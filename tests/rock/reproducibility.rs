@@ -129,7 +129,8 @@ fn simulation() -> Simulation {
 
 #[test]
 fn a_scene_goes_on_from_a_file_without_a_device() {
-    let file = std::env::temp_dir().join(format!("riprap_rock_{}.state", std::process::id()));
+    let folder = tempfile::tempdir().expect("a folder to write to");
+    let file = folder.path().join("rock.state");
     let mut whole = simulation();
     pollster::block_on(whole.advance(7)).expect("steps");
     let state = pollster::block_on(whole.checkpoint()).expect("a state");
@@ -137,7 +138,6 @@ fn a_scene_goes_on_from_a_file_without_a_device() {
     pollster::block_on(whole.advance(9)).expect("steps");
     let mut rest = simulation();
     let read = Checkpoint::read(&file).expect("a checkpoint");
-    std::fs::remove_file(&file).expect("the file");
     assert_eq!(read, state);
     rest.restore(&read).expect("the same scene");
     pollster::block_on(rest.advance(9)).expect("steps");

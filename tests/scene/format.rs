@@ -205,9 +205,9 @@ fn a_view_has_slices_and_traces() {
 
 #[test]
 fn formulas_take_series_from_files_beside_the_scene() {
-    let folder = std::env::temp_dir().join(format!("riprap_series_{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    let write = |text: &str| std::fs::write(folder.join("flow.csv"), text).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("flow.csv");
+    let write = |text: &str| std::fs::write(&file, text).unwrap();
     let scene = r#"
         domain = { size = [1, 1, 1], cell = 0.1 }
         fluid = { viscosity = 1e-2 }
@@ -217,7 +217,7 @@ fn formulas_take_series_from_files_beside_the_scene() {
         x_min = { kind = "velocity", velocity = ["0.5*interpolate(t, 'flow.csv')", 0, 0] }
         x_max = { kind = "pressure" }
     "#;
-    let read_from = |scene: &str| Scene::from_toml(scene, &folder, "river.toml");
+    let read_from = |scene: &str| Scene::from_toml(scene, folder.path(), "river.toml");
     let read = || read_from(scene);
     write("time,speed\n0,1\n10,2\n20,0.5\n\n");
     let read_scene = read().unwrap();
@@ -253,7 +253,7 @@ fn formulas_take_series_from_files_beside_the_scene() {
         write(text);
         assert_contains(read().unwrap_err().to_string(), &parts);
     }
-    std::fs::remove_dir_all(&folder).unwrap();
+    std::fs::remove_file(&file).unwrap();
     assert_contains(
         read().unwrap_err().to_string(),
         &["river.toml:7:", "flow.csv"],

@@ -77,7 +77,8 @@ fn state(rig: &Rig, pool: &mut Simulation) -> Checkpoint {
 #[test]
 fn blocks_in_free_water_go_on_from_a_file_to_the_same_bits() {
     let rig = Rig::new();
-    let file = std::env::temp_dir().join(format!("riprap_water_{}.state", std::process::id()));
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("water.state");
     let mut whole = pool(&rig);
     let start = state(&rig, &mut whole);
     rig.wait(whole.advance(CUT)).unwrap();
@@ -88,7 +89,6 @@ fn blocks_in_free_water_go_on_from_a_file_to_the_same_bits() {
     let rig = Rig::new();
     let mut rest = pool(&rig);
     rest.restore(&Checkpoint::read(&file).unwrap()).unwrap();
-    std::fs::remove_file(&file).unwrap();
     rig.wait(rest.advance(STEPS - CUT)).unwrap();
     let found = state(&rig, &mut rest);
     assert!(found == expected, "the states differ");

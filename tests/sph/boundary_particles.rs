@@ -273,15 +273,14 @@ fn internal_faces_of_a_compound_leave_no_holes() {
     let ends = [[2.0, -0.3], [0.0, -0.3]];
     let section: Vec<[f64; 2]> = profile.into_iter().chain(ends).collect();
     let mesh = prism(&section);
-    let folder = std::env::temp_dir().join(format!("riprap_valley_{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("valley.obj"), mesh).unwrap();
-    let file = folder.join("valley.obj").display().to_string();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("valley.obj");
+    std::fs::write(&file, mesh).unwrap();
     let valley = block(&format!(
-        "kind = \"mesh\"\nfile = \"{file}\"\nmotion = \"fixed\""
+        "kind = \"mesh\"\nfile = \"{}\"\nmotion = \"fixed\"",
+        file.display()
     ));
     let initial = Initial::of(&tank(&valley).unwrap());
-    std::fs::remove_dir_all(&folder).unwrap();
     assert!(
         initial.setup.setup.blocks[initial.block("b")]
             .shape

@@ -421,9 +421,9 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::path::Path;
 
-    fn machine() -> Index {
-        let folder = std::env::temp_dir().join(format!("riprap_records_{}", std::process::id()));
+    fn machine(folder: &Path) -> Index {
         std::fs::create_dir_all(folder.join("validate/water")).unwrap();
         std::fs::create_dir_all(folder.join("bench")).unwrap();
         let rows = r#"[
@@ -435,7 +435,7 @@ mod tests {
         std::fs::write(folder.join("bench/all.json"), rows).unwrap();
         Index {
             machine: "a GPU".into(),
-            folder,
+            folder: folder.into(),
             ..Index::default()
         }
     }
@@ -444,7 +444,8 @@ mod tests {
     fn tables_stand_between_their_marks_and_show_what_was_missed() {
         let text = "before\n<!-- records: validate water/still -->\nold\n<!-- end of records -->\nafter\n\
             <!-- records: bench all -->\n<!-- end of records -->\n";
-        let machine = [machine()];
+        let folder = tempfile::tempdir().unwrap();
+        let machine = [machine(folder.path())];
         let rendered = render(text, &machine).unwrap();
         for line in [
             "before",
@@ -461,7 +462,6 @@ mod tests {
         }
         assert!(!rendered.contains("old"));
         assert_eq!(render(&rendered, &machine).unwrap(), rendered);
-        std::fs::remove_dir_all(&machine[0].folder).unwrap();
     }
 
     #[test]

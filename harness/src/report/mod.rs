@@ -213,18 +213,16 @@ mod tests {
 
     #[test]
     fn rows_of_another_form_are_not_gone_on_with() {
-        let out = std::env::temp_dir().join(format!("riprap_conditions_{}", std::process::id()));
-        std::fs::create_dir_all(&out).unwrap();
+        let out = tempfile::tempdir().unwrap();
         let args = |resume| Args {
             resume,
-            out: out.clone(),
+            out: out.path().into(),
             ..Args::default()
         };
         same_conditions(&args(true), "short form on a\n").unwrap();
         same_conditions(&args(true), "short form on a\n").unwrap();
         let refused = same_conditions(&args(true), "full form on a\n");
         let anew = same_conditions(&args(false), "full form on a\n");
-        std::fs::remove_dir_all(&out).unwrap();
         let told = refused.unwrap_err().to_string();
         assert!(
             told.contains("short form") && told.contains("--full"),

@@ -241,14 +241,14 @@ mod tests {
 
     #[test]
     fn a_report_goes_on_from_its_table() {
-        let path = std::env::temp_dir().join(format!("riprap_report_{}.csv", std::process::id()));
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("report.csv");
         let mut table = Table::create(&path).unwrap();
         table.push(row()).unwrap();
         let read = Table::resume(&path).unwrap();
         assert_eq!(read.rows, [row()]);
         std::fs::write(&path, format!("{HEAD}\nsphere-array,half a row")).unwrap();
         let error = Table::resume(&path).err().unwrap().to_string();
-        std::fs::remove_file(&path).unwrap();
         assert!(error.contains("line 2"), "{error}");
     }
 

@@ -238,13 +238,10 @@ mod tests {
     }
 
     fn found(before: &str, now: &str) -> String {
-        let folder = std::env::temp_dir().join(format!("riprap_origin_{}", std::process::id()));
-        fs::create_dir_all(&folder).expect("a folder to write to");
-        let path = folder.join("checkpoint.riprap");
+        let folder = tempfile::tempdir().expect("a folder to write to");
+        let path = folder.path().join("checkpoint.riprap");
         keep_scene(before, &path).expect("a folder to write to");
-        let warning = other_scene(&path, now);
-        fs::remove_dir_all(&folder).expect("the folder");
-        warning.unwrap_or_default()
+        other_scene(&path, now).unwrap_or_default()
     }
 
     #[test]

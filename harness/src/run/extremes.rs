@@ -68,9 +68,8 @@ mod tests {
 
     #[test]
     fn what_is_kept_goes_on_and_what_is_of_another_step_is_named() {
-        let folder = std::env::temp_dir().join(format!("riprap_extremes_{}", std::process::id()));
-        fs::create_dir_all(&folder).unwrap();
-        let path = folder.join("checkpoint.riprap");
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("checkpoint.riprap");
         let factors = Factors {
             sliding: 1.25,
             uplift: f64::INFINITY,
@@ -104,7 +103,7 @@ mod tests {
             "{:?}",
             other.warnings
         );
-        fs::remove_dir_all(&folder).unwrap();
+        folder.close().unwrap();
         assert!(resumed(7).warnings[0].contains("checkpoint.extremes.toml"));
     }
 }

@@ -114,8 +114,9 @@ mod tests {
 
     #[test]
     fn what_was_added_is_on_disk_before_the_end() {
-        let folder = std::env::temp_dir().join(format!("riprap-stress-{}", std::process::id()));
-        let mut sink = Sink::begin(&folder, Machine::host()).unwrap();
+        let scratch = tempfile::tempdir().unwrap();
+        let folder = scratch.path();
+        let mut sink = Sink::begin(folder, Machine::host()).unwrap();
         for steps in 1..=2 {
             let cell = Cell::new("a", "", "1".into(), "2".into(), "q");
             sink.add(Cell { steps, ..cell }).unwrap();
@@ -129,6 +130,5 @@ mod tests {
             let lengths: Vec<_> = table.lines().map(|row| row.split(',').count()).collect();
             assert!(lengths.iter().all(|n| *n == lengths[0]), "{table}");
         }
-        std::fs::remove_dir_all(folder).unwrap();
     }
 }

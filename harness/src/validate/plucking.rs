@@ -20,8 +20,7 @@ const TOLERANCE: f64 = 0.015;
 
 /// Runs the case.
 pub fn run(context: &CaseContext) -> Outcome {
-    let folder = std::env::temp_dir().join(format!("riprap_plucking_{}", std::process::id()));
-    fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    let folder = tempfile::tempdir().context("cannot make a temporary folder")?;
     let mut records = Vec::new();
     let begin = Instant::now();
     let [mut moves, mut fails] = [Vec::new(), Vec::new()];
@@ -30,7 +29,7 @@ pub fn run(context: &CaseContext) -> Outcome {
         let text = SCENE
             .replace("hold = 0.05", &format!("hold = {hold}"))
             .replace("duration = 0.35", &format!("duration = {}", hold + FREE));
-        let scene = folder.join("plucking.toml");
+        let scene = folder.path().join("plucking.toml");
         fs::write(&scene, text).with_context(|| format!("cannot write {}", scene.display()))?;
         let args = Args {
             scene,
@@ -42,7 +41,7 @@ pub fn run(context: &CaseContext) -> Outcome {
             tolerance: TOLERANCE,
             equilibrium: true,
             adapter: Some(context.device.adapter_info().name),
-            out: Some(folder.clone()),
+            out: Some(folder.path().into()),
             ..Args::default()
         };
         let start = Instant::now();
@@ -82,6 +81,5 @@ pub fn run(context: &CaseContext) -> Outcome {
         "velocity that moves it / limit equilibrium",
         moves[0] / fails[0],
     );
-    let _ = fs::remove_dir_all(&folder);
     Ok(records)
 }

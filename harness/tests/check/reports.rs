@@ -183,16 +183,14 @@ fn the_kernels_of_a_scene_are_written() {
         ),
         ("dam_break", &["accelerate", "sort_count"]),
     ] {
-        let folder = std::env::temp_dir().join(format!("riprap_kernels_{name}"));
-        let _ = std::fs::remove_dir_all(&folder);
-        let to = folder.to_str().unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let to = folder.path().to_str().unwrap();
         json(&["check", &scene(name), "--json", "--kernels", to]);
         for file in some {
-            let text = std::fs::read_to_string(folder.join(format!("{file}.wgsl"))).unwrap();
+            let text = std::fs::read_to_string(folder.path().join(format!("{file}.wgsl"))).unwrap();
             let kernel = file.trim_end_matches("_1");
             assert!(text.contains(&format!("fn {kernel}(")), "{file}");
             assert!(!text.contains("// unroll"), "{file}");
         }
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

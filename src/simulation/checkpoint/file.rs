@@ -160,8 +160,8 @@ mod tests {
 
     #[test]
     fn files_of_other_versions_and_damaged_ones_are_refused() {
-        let name = format!("riprap_refused_{}.checkpoint", std::process::id());
-        let path = std::env::temp_dir().join(name);
+        let folder = tempfile::tempdir().expect("a folder to write to");
+        let path = folder.path().join("checkpoint.riprap");
         checkpoint().write(&path).expect("a folder to write to");
         assert_eq!(Checkpoint::read(&path).expect("a checkpoint"), checkpoint());
         let whole = std::fs::read(&path).expect("the file");
@@ -196,7 +196,6 @@ mod tests {
         }
         let error = refusal(&path, b"<VTKFile>");
         assert!(error.contains("not a checkpoint"), "{error}");
-        std::fs::remove_file(&path).expect("the file");
     }
 
     /// All numbers keep their bits, NaN included.

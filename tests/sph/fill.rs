@@ -3,7 +3,7 @@
 use crate::start::{DX, Initial, error_of, is_on_lattice, scene, tank};
 use glam::DVec3;
 use kit::assert_relative;
-use riprap::scene::build::particle_lattice;
+use riprap::scene::build::{block_setup, particle_lattice, particle_setup};
 
 #[test]
 fn a_box_of_water_in_a_tank_loses_no_particle_to_its_walls() {
@@ -49,6 +49,17 @@ fn compressed_particles_have_the_volume_of_their_density() {
         let exact = DX * (below + 0.5 * part(row));
         assert!((x.z - exact).abs() < 1e-12, "{x}: {exact}");
     }
+}
+
+/// Water that gravity drives along a periodic axis, more than it presses it on the floor, is compressed towards the floor alone.
+#[test]
+fn water_is_not_compressed_along_periodic_axes() {
+    let mut scene = crate::start::scene("disorder = 0", "").unwrap();
+    scene.fluid.acceleration[1] = 20.0.into();
+    let blocks = block_setup(&scene).unwrap();
+    let (_, start) = particle_setup(&scene, &blocks).unwrap();
+    assert!(start.positions.iter().all(|x| is_on_lattice(x.y, 0.0)));
+    assert!(start.positions.iter().any(|x| !is_on_lattice(x.z, 0.0)));
 }
 
 #[test]

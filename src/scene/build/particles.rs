@@ -105,7 +105,9 @@ pub fn particle_setup(scene: &Scene, blocks: &BlockSetup) -> Result<(Setup, Star
         setup.scheme = Scheme::Mueller { viscosity };
     }
     if particles.scheme == scene::Scheme::Delta {
-        start.compress(&lattice, setup.density * gravity, |p| setup.excess(p));
+        // Along periodic axes there is no floor.
+        let (_, weight) = scene.hydrostatic();
+        start.compress(&lattice, weight.into(), |p| setup.excess(p));
     }
     start.add_disorder(particles.disorder, &lattice, setup.density * gravity);
     Ok((setup, start))

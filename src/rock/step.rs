@@ -109,9 +109,8 @@ impl Blocks {
         let start = self.step_times.map(|times| (Instant::now(), times.contact));
         if let Err(error) = self.kick_drift(dt) {
             self.place();
-            // A step too long for the contacts may fail before there are any.
-            if self.given_step {
-                self.check_step_for(dt, self.stiffest)?;
+            if matches!(error, Error::DeepOverlap { .. }) {
+                self.check_step_of_shapes(dt)?;
             }
             return Err(error);
         }
@@ -377,6 +376,14 @@ impl Blocks {
         }
         let stiffest = time_step::of_sums(&self.bodies, &self.deforming, &self.contact_sums);
         self.check_step_for(dt, stiffest)
+    }
+
+    /// The same for the faces of the shapes: a step too long for contacts may fail before there are any.
+    pub(super) fn check_step_of_shapes(&self, dt: f64) -> Result<()> {
+        match self.given_step {
+            true => self.check_step_for(dt, self.stiffest),
+            false => Ok(()),
+        }
     }
 
     /// The same for ω² and the index of the stiffest block.

@@ -134,6 +134,7 @@ impl Blocks {
         let Some((block, travel, width)) = tunnelling.min_by_key(|found| found.0) else {
             return Ok(());
         };
+        self.check_step_of_shapes(dt)?;
         let message = format!(
             "at {:.3e} m/s it moves {travel:.3e} m in a step of {dt:.3e} s, more than half of the {width:.3e} m that it is \
              wide along its velocity, and could pass through others unseen; take a time_step of at most {:.3e} s, or look \

@@ -81,7 +81,7 @@ impl Scene {
             warn(
                 "coupling.hold".into(),
                 format!(
-                    "is 0, and the water enters with {speed} m/s at {} from t = 0: this sends a pressure wave of ρcU = {pressure:.2e} Pa, more \
+                    "is 0, and the water crosses {} at {speed} m/s from t = 0: this sends a pressure wave of ρcU = {pressure:.2e} Pa, more \
                      than the submerged weight of blocks[{number}] over its area; hold the blocks until the flow has developed (hold = {through:.2e} is \
                      one passage), or let the velocity grow from 0, as with min(1, t/{through:.2e})",
                     face.name()

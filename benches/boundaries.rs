@@ -9,6 +9,7 @@ use criterion::Throughput;
 use kit::subject::sheared_noise;
 use riprap::{
     Error,
+    gpu::kernel::submit_pass,
     lattice::{Face, Lattice},
     wgpu,
 };
@@ -50,13 +51,10 @@ fn main() -> Result<(), Error> {
                 let work = Throughput::Elements(LATTICES as u64 * 2 * u64::from(N * N));
                 let (device, queue) = (adapter.device.clone(), adapter.queue.clone());
                 let rest = |lattices: &mut Vec<Lattice>| {
-                    let mut encoder = device.create_command_encoder(&Default::default());
-                    let mut pass = encoder.begin_compute_pass(&Default::default());
-                    lattices
-                        .iter_mut()
-                        .for_each(|lattice| lattice.record(&mut pass));
-                    drop(pass);
-                    queue.submit([encoder.finish()]);
+                    submit_pass(&device, &queue, |pass| {
+                        let each = lattices.iter_mut();
+                        each.for_each(|lattice| lattice.record(pass));
+                    });
                     Ok(())
                 };
                 let passes = |lattices: &mut Vec<Lattice>, pass: &mut wgpu::ComputePass<'_>| {

@@ -10,7 +10,7 @@ use riprap::{
     Error,
     geometry::{HalfSpace, Polyhedron, Pose, Shape},
     gpu::Processor,
-    gpu::kernel::Kernel,
+    gpu::kernel::{Kernel, submit_pass},
     lattice::{Grid, Lattice, SolidOperator},
     psm::{
         CellMapping, Frame, Motion, PLANES, SolidBlock, SolidCells, Tile, WRENCH, constants,
@@ -136,14 +136,11 @@ impl World {
             turn: 0,
         };
         world.place()?;
-        let mut encoder = world.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            world.cells.record_cells(&mut pass);
-            world.lattice.record_psm(&mut pass);
-            world.lattice.record_rest(&mut pass);
-        }
-        world.queue.submit([encoder.finish()]);
+        submit_pass(&world.device, &world.queue, |pass| {
+            world.cells.record_cells(pass);
+            world.lattice.record_psm(pass);
+            world.lattice.record_rest(pass);
+        });
         Ok(world)
     }
 

@@ -250,6 +250,18 @@ pub fn largest_binding(limits: &wgpu::Limits) -> u64 {
         .min(4 * u64::from(u32::MAX))
 }
 
+/// Submits one compute pass with what `record` records, whatever it returns.
+pub fn submit_pass<T>(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    record: impl FnOnce(&mut wgpu::ComputePass<'_>) -> T,
+) -> T {
+    let mut encoder = device.create_command_encoder(&Default::default());
+    let recorded = record(&mut encoder.begin_compute_pass(&Default::default()));
+    queue.submit([encoder.finish()]);
+    recorded
+}
+
 /// Workgroups per dimension that WebGPU guarantees.
 pub const MAX_GROUPS: u32 = 65_535;
 

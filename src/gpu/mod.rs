@@ -5,7 +5,7 @@
 //! [`layout`] compares Rust structs with WGSL structs, [`readback`] reads buffers, and [`timer`] times passes on the device.
 //!
 //! ```
-//! use riprap::{gpu::{kernel::Kernel, link::Program}, wgpu};
+//! use riprap::{gpu::{kernel::{Kernel, submit_pass}, link::Program}, wgpu};
 //!
 //! # fn main() -> riprap::Result<()> {
 //! // Any device; this one does nothing, so that the example runs everywhere.
@@ -29,12 +29,7 @@
 //!     mapped_at_creation: false,
 //! });
 //! let bind = kernel.bind(&device, &[("values", &values)])?;
-//! let mut encoder = device.create_command_encoder(&Default::default());
-//! {
-//!     let mut pass = encoder.begin_compute_pass(&Default::default());
-//!     kernel.record(&mut pass, &bind, 1000u32.div_ceil(64));
-//! }
-//! queue.submit([encoder.finish()]);
+//! submit_pass(&device, &queue, |pass| kernel.record(pass, &bind, 1000u32.div_ceil(64)));
 //! # Ok(())
 //! # }
 //! ```

@@ -6,7 +6,11 @@ use super::{
 };
 use crate::{
     Error, Result,
-    gpu::{buffers::zeroed, kernel::largest_binding, readback::Readback},
+    gpu::{
+        buffers::zeroed,
+        kernel::{largest_binding, submit_pass},
+        readback::Readback,
+    },
 };
 use bytemuck::{Pod, Zeroable};
 
@@ -183,9 +187,7 @@ impl Lattice {
         let odd = self.parity() as u32;
         let kernel = ("block_friction", "list_block_faces");
         let dispatch = self.pass_of_model(device, kernel, odd, bricks, &more)?;
-        let mut encoder = device.create_command_encoder(&Default::default());
-        dispatch.record(&mut encoder.begin_compute_pass(&Default::default()));
-        queue.submit([encoder.finish()]);
+        submit_pass(device, queue, |pass| dispatch.record(pass));
         let mut readback = Readback::default();
         let counts: Vec<u32> = readback.read(device, queue, &counts, 2).await?;
         let [area, found] = [counts[0], counts[1]].map(u64::from);

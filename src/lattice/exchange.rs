@@ -7,7 +7,11 @@ use super::{
 };
 use crate::{
     Error, Result,
-    gpu::{buffers::zeroed, kernel::Kernel, readback::Readback},
+    gpu::{
+        buffers::zeroed,
+        kernel::{Kernel, submit_pass},
+        readback::Readback,
+    },
 };
 use std::sync::Arc;
 
@@ -56,13 +60,10 @@ impl Lattice {
         let out = self.exchange(device, "take_out", 0)?;
         for q in 0..27u32 {
             let direction = buffers::storage(device, "direction", bytemuck::bytes_of(&q));
-            let mut encoder = device.create_command_encoder(&Default::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                self.close(&mut pass);
-                self.record_exchange(device, &out, &mut pass, &direction, &buffer)?;
-            }
-            queue.submit([encoder.finish()]);
+            submit_pass(device, queue, |pass| {
+                self.close(pass);
+                self.record_exchange(device, &out, pass, &direction, &buffer)
+            })?;
             values.extend(readback.read::<f32>(device, queue, &buffer, cells).await?);
         }
         let mut velocity = Vec::new();
@@ -195,14 +196,11 @@ impl Lattice {
         for (q, values) in (0..27u32).zip(state.values.chunks(cells)) {
             let direction = buffers::storage(device, "direction", bytemuck::bytes_of(&q));
             let buffer = buffers::storage(device, "canonical", bytemuck::cast_slice(values));
-            let mut encoder = device.create_command_encoder(&Default::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                for exchange in &into {
-                    self.record_exchange(device, exchange, &mut pass, &direction, &buffer)?;
-                }
-            }
-            queue.submit([encoder.finish()]);
+            submit_pass(device, queue, |pass| {
+                into.iter().try_for_each(|exchange| {
+                    self.record_exchange(device, exchange, pass, &direction, &buffer)
+                })
+            })?;
         }
         let mut outflow_state = vec![0.0; state.outflow_state.len()];
         let places = self.geometry.stages.canonical(&self.geometry.outflow);

@@ -3,7 +3,11 @@
 use super::{Lattice, buffers};
 use crate::{
     Error, Result,
-    gpu::{buffers::zeroed, kernel::Kernel, readback::Readback},
+    gpu::{
+        buffers::zeroed,
+        kernel::{Kernel, submit_pass},
+        readback::Readback,
+    },
 };
 use std::sync::Arc;
 
@@ -47,13 +51,8 @@ impl Gather {
             ("gathered", &out),
         ];
         let bind = self.0.bind(device, &buffers)?;
-        let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            let groups = (cells.len() as u32).div_ceil(64);
-            self.0.record(&mut pass, &bind, groups);
-        }
-        queue.submit([encoder.finish()]);
+        let groups = (cells.len() as u32).div_ceil(64);
+        submit_pass(device, queue, |pass| self.0.record(pass, &bind, groups));
         readback.read(device, queue, &out, cells.len()).await
     }
 }

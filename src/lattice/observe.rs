@@ -6,7 +6,11 @@ use super::{
 };
 use crate::{
     Error, Result,
-    gpu::{buffers::zeroed, kernel::Kernel, readback::Readback},
+    gpu::{
+        buffers::zeroed,
+        kernel::{Kernel, submit_pass},
+        readback::Readback,
+    },
 };
 use std::sync::Arc;
 
@@ -185,13 +189,7 @@ impl Observer {
         queue: &wgpu::Queue,
         lattice: &mut Lattice,
     ) -> Result<[Vec<f32>; 3]> {
-        let mut encoder = device.create_command_encoder(&Default::default());
-        self.hold(
-            lattice,
-            &mut encoder.begin_compute_pass(&Default::default()),
-            false,
-        )?;
-        queue.submit([encoder.finish()]);
+        submit_pass(device, queue, |pass| self.hold(lattice, pass, false))?;
         let count = lattice.grid.cell_count();
         let mut velocity = [const { Vec::new() }; 3];
         for (own, buffer) in velocity.iter_mut().zip(&self.velocity) {
@@ -260,16 +258,13 @@ impl Observer {
         lattice: &mut Lattice,
         then: Option<usize>,
     ) -> Result<()> {
-        let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            self.hold(lattice, &mut pass, true)?;
+        submit_pass(device, queue, |pass| {
+            self.hold(lattice, pass, true)?;
             if let Some(derived) = then {
-                self.derive[derived].1.record(&mut pass);
+                self.derive[derived].1.record(pass);
             }
-        }
-        queue.submit([encoder.finish()]);
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Reads density and velocity of all cells.
@@ -431,14 +426,12 @@ impl Observer {
                 (buffer, dispatch)
             }
         };
-        let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
+        submit_pass(device, queue, |pass| -> Result<()> {
             // The ledger of blocks and fluid uses the contents of the cells.
-            self.hold(lattice, &mut pass, false)?;
-            dispatch.record(&mut pass);
-        }
-        queue.submit([encoder.finish()]);
+            self.hold(lattice, pass, false)?;
+            dispatch.record(pass);
+            Ok(())
+        })?;
         let partial: Vec<[f32; 8]> = self.readback.read(device, queue, &buffer, turns).await?;
         self.sums = Some((buffer, dispatch));
         let solid = lattice.setup.surface.iter();

@@ -5,7 +5,7 @@ use super::{
     buffers::{self, GUARD_START},
     cell_kernels::CellDispatch,
 };
-use crate::{Error, Result};
+use crate::{Error, Result, gpu::kernel::submit_pass};
 
 /// Density and velocity on the domain cells, lattice units, x fastest.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,7 +73,6 @@ impl Lattice {
             ("velocity_z", &z),
         ];
         let program = self.cell_program("initialise");
-        let mut encoder = device.create_command_encoder(&Default::default());
         let amount = f64::from(u8::from(non_equilibrium));
         for half in self.halves() {
             let dispatch = CellDispatch {
@@ -88,10 +87,8 @@ impl Lattice {
                 invocations: cells as u32,
             };
             let dispatch = self.cell_dispatch(device, &dispatch)?;
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            dispatch.record(&mut pass);
+            submit_pass(device, queue, |pass| dispatch.record(pass));
         }
-        queue.submit([encoder.finish()]);
         self.set_near_wall(device, queue, false)?;
         self.store_outflow_faces(device, queue)
     }
@@ -103,9 +100,7 @@ impl Lattice {
         let Some(store) = self.store_outflow_pass(device, self.parity() as u32)? else {
             return Ok(());
         };
-        let mut encoder = device.create_command_encoder(&Default::default());
-        store.record(&mut encoder.begin_compute_pass(&Default::default()));
-        queue.submit([encoder.finish()]);
+        submit_pass(device, queue, |pass| store.record(pass));
         Ok(())
     }
 

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     Error, Result,
-    gpu::{buffers::zeroed, link::Program, readback::Readback},
+    gpu::{buffers::zeroed, kernel::submit_pass, link::Program, readback::Readback},
 };
 use bytemuck::{Pod, Zeroable};
 
@@ -332,11 +332,9 @@ impl Statistics {
             Some(field) => field,
             None => zeroed(device, "statistic", 4 * cells as u64),
         };
-        let mut encoder = device.create_command_encoder(&Default::default());
         let entry = ("write_statistic", plane);
-        self.dispatch(device, lattice, entry, &[("derived", &field)])?
-            .record(&mut encoder.begin_compute_pass(&Default::default()));
-        queue.submit([encoder.finish()]);
+        let dispatch = self.dispatch(device, lattice, entry, &[("derived", &field)])?;
+        submit_pass(device, queue, |pass| dispatch.record(pass));
         let readback = &mut self.readback;
         let values = match on {
             None => readback.read(device, queue, &field, cells).await,

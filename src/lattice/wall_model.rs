@@ -10,7 +10,11 @@ use super::{
 };
 use crate::{
     Result,
-    gpu::{buffers::zeroed, kernel::largest_binding, readback::Readback},
+    gpu::{
+        buffers::zeroed,
+        kernel::{largest_binding, submit_pass},
+        readback::Readback,
+    },
 };
 use bytemuck::{Pod, Zeroable};
 use std::collections::HashSet;
@@ -323,14 +327,9 @@ impl Lattice {
             true => passes.truncate(1),
             false => passes.extend(self.passes_of_walls(device, 1, odd)?),
         }
-        let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            for dispatch in &passes {
-                dispatch.record(&mut pass);
-            }
-        }
-        queue.submit([encoder.finish()]);
+        submit_pass(device, queue, |pass| {
+            passes.iter().for_each(|dispatch| dispatch.record(pass));
+        });
         Ok(())
     }
 

@@ -3,6 +3,7 @@
 use super::lattice_fluid::LatticeFluid;
 use crate::{
     Error, Result,
+    gpu::kernel::submit_pass,
     lattice::{Lattice, Observer, Statistic, Statistics, StatisticsState},
     scene::{Field, Scene},
 };
@@ -94,14 +95,11 @@ impl LatticeFluid {
         if !self.observed_sample_due() {
             return Ok(());
         }
-        let mut encoder = self.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            self.observer.record(&mut self.lattice, &mut pass)?;
-            self.record_sample(&mut pass)?;
-        }
-        self.queue.submit([encoder.finish()]);
-        Ok(())
+        let (device, queue) = (self.device.clone(), self.queue.clone());
+        submit_pass(&device, &queue, |pass| {
+            self.observer.record(&mut self.lattice, pass)?;
+            self.record_sample(pass)
+        })
     }
 
     /// Makes the coming step add the state before it to the statistics if that is a sample.

@@ -2,6 +2,7 @@
 
 use kit::{Random, Rig, twin::statistics::moments};
 use riprap::{
+    gpu::kernel::submit_pass,
     lattice::{
         Face, Force, Grid, Lattice, Observer, Setup, State, Statistic, Statistics, StatisticsState,
         Storage, SurfaceCell,
@@ -43,14 +44,11 @@ impl Signal {
             let bytes = bytemuck::cast_slice(&values);
             self.rig.queue.write_buffer(buffer, 0, bytes);
         }
-        let mut encoder = self.rig.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            statistics
-                .record(&self.rig.device, &mut self.lattice, &mut pass)
-                .unwrap();
-        }
-        self.rig.queue.submit([encoder.finish()]);
+        let (device, queue) = (&self.rig.device, &self.rig.queue);
+        let recorded = submit_pass(device, queue, |pass| {
+            statistics.record(device, &mut self.lattice, pass)
+        });
+        recorded.unwrap();
     }
 
     fn read(&self, statistics: &mut Statistics, of: Statistic, on: Option<&[u32]>) -> Vec<f32> {
@@ -208,17 +206,13 @@ fn samples_that_steps_add_are_those_of_an_observer() {
             // Over the end of a block in one of them.
             let samples = if lanes == 1 { 300 } else { 20 };
             for sample in 1..=samples {
-                let mut encoder = rig.device.create_command_encoder(&Default::default());
-                {
-                    let mut pass = encoder.begin_compute_pass(&Default::default());
-                    observer.record(&mut lattice, &mut pass).unwrap();
+                submit_pass(&rig.device, &rig.queue, |pass| {
+                    observer.record(&mut lattice, pass).unwrap();
                     for statistics in [&mut observed, &mut summed] {
-                        statistics
-                            .record(&rig.device, &mut lattice, &mut pass)
-                            .unwrap();
+                        let recorded = statistics.record(&rig.device, &mut lattice, pass);
+                        recorded.unwrap();
                     }
-                }
-                rig.queue.submit([encoder.finish()]);
+                });
                 assert_eq!(summed.samples(), sample);
                 let early = summed.state(&rig.device, &rig.queue, &lattice);
                 assert!(rig.wait(early).is_err(), "before the step");

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use kit::Rig;
 use riprap::{
     geometry::{Polyhedron, Pose},
-    gpu::readback::Readback,
+    gpu::{kernel::submit_pass, readback::Readback},
     lattice::{Grid, Lattice, Populations, Setup, SolidOperator, State, Storage},
     psm::{Frame, SolidBlock, SolidCells},
     units::Units,
@@ -47,15 +47,12 @@ fn run(limits: wgpu::Limits) -> (u32, Vec<u32>, Populations) {
         let at = DVec3::new(11.3 + 0.05 * f64::from(step), 9.0, 8.0);
         let pose = Pose::rigid(at, turned, DVec3::X * 0.05, DVec3::X * 0.02);
         cells.place(device, queue, &mut lattice, &[pose]).unwrap();
-        let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            cells.record_cells(&mut pass);
-            lattice.record_psm(&mut pass);
-            cells.record_loads(&mut pass);
-            lattice.record_rest(&mut pass);
-        }
-        queue.submit([encoder.finish()]);
+        submit_pass(device, queue, |pass| {
+            cells.record_cells(pass);
+            lattice.record_psm(pass);
+            cells.record_loads(pass);
+            lattice.record_rest(pass);
+        });
     }
     let mut readback = Readback::default();
     let count = cells.wrench_count();

@@ -6,7 +6,10 @@ use kit::{
     twin::lattice::W,
     twin::of_setup::{limit, noise, walled},
 };
-use riprap::lattice::{Force, Lattice, Observer, Setup, SolidOperator, State, Storage};
+use riprap::{
+    gpu::kernel::submit_pass,
+    lattice::{Force, Lattice, Observer, Setup, SolidOperator, State, Storage},
+};
 
 fn bits(subject: &mut Subject) -> Vec<u32> {
     let end = subject.rig.populations(&mut subject.lattice);
@@ -82,14 +85,10 @@ fn neither_the_order_of_bricks_nor_a_step_in_two_submissions_changes_a_bit() {
     split.fill(&bricks);
     for _ in 0..5 {
         for rest in [false, true] {
-            let mut encoder = split.rig.device.create_command_encoder(&Default::default());
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            match rest {
-                false => split.lattice.record_psm(&mut pass),
-                true => split.lattice.record_rest(&mut pass),
-            }
-            drop(pass);
-            split.rig.queue.submit([encoder.finish()]);
+            submit_pass(&split.rig.device, &split.rig.queue, |pass| match rest {
+                false => split.lattice.record_psm(pass),
+                true => split.lattice.record_rest(pass),
+            });
         }
     }
     assert!(bits(&mut split) == expected);

@@ -11,7 +11,7 @@ use kit::{
 };
 use riprap::{
     geometry::{HalfSpace, Load, Polyhedron, Pose},
-    gpu::readback::Readback,
+    gpu::{kernel::submit_pass, readback::Readback},
     lattice::{Face, Setup, SolidOperator, SolidWeight, Storage},
     psm::{Frame, SolidBlock, SolidCells},
     units::Units,
@@ -228,14 +228,12 @@ fn assert_equal_to_twin(name: &str, setup: &Setup, boxes: &[Cuboid], limit: f64)
         immersed
             .place(&device, &queue, &mut subject.lattice, &poses)
             .unwrap();
-        let mut encoder = device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        immersed.record_cells(&mut pass);
-        subject.lattice.record_psm(&mut pass);
-        immersed.record_loads(&mut pass);
-        subject.lattice.record_rest(&mut pass);
-        drop(pass);
-        queue.submit([encoder.finish()]);
+        submit_pass(&device, &queue, |pass| {
+            immersed.record_cells(pass);
+            subject.lattice.record_psm(pass);
+            immersed.record_loads(pass);
+            subject.lattice.record_rest(pass);
+        });
         let mut readback = Readback::default();
         let read = readback.read(
             &device,

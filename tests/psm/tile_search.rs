@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use kit::Rig;
 use riprap::{
     geometry::{Polyhedron, Pose, Shape},
-    gpu::readback::Readback,
+    gpu::{kernel::submit_pass, readback::Readback},
     lattice::{Lattice, Setup, SolidOperator},
     psm::{Frame, PLANES, SolidBlock, SolidCells},
     units::Units,
@@ -62,11 +62,7 @@ impl World {
         let (device, queue) = (&self.rig.device, &self.rig.queue);
         let placed = self.immersed.place(device, queue, &mut self.lattice, poses);
         placed.unwrap();
-        let mut encoder = device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        self.immersed.record_cells(&mut pass);
-        drop(pass);
-        queue.submit([encoder.finish()]);
+        submit_pass(device, queue, |pass| self.immersed.record_cells(pass));
         let buffer = self.lattice.psm_planes().next().unwrap().1;
         let bricks = self.immersed.bricks();
         let grid = self.lattice.grid();

@@ -8,9 +8,12 @@ use kit::twin::{
     lattice::{C, Q},
     statistics::moments,
 };
-use riprap::lattice::{
-    Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Statistic, Statistics,
-    Storage, SurfaceCell, WallModel,
+use riprap::{
+    gpu::kernel::submit_pass,
+    lattice::{
+        Collision, Equilibrium, Face, Force, Setup, SolidOperator, SolidWeight, Statistic,
+        Statistics, Storage, SurfaceCell, WallModel,
+    },
 };
 
 /// Compares with the twin after 1, 2 and 5 steps, and the statistics of the states before three of these. Forces are sums over the
@@ -68,14 +71,10 @@ impl Sampling {
     /// Samples the present state. The momentum in the middle of a step is the mean of that before and after the collision.
     fn record(&mut self, subject: &mut Subject) {
         let (device, twin) = (&subject.rig.device, &subject.twin);
-        let mut encoder = device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        let recorded = self
-            .statistics
-            .record(device, &mut subject.lattice, &mut pass);
+        let recorded = submit_pass(device, &subject.rig.queue, |pass| {
+            self.statistics.record(device, &mut subject.lattice, pass)
+        });
         recorded.unwrap();
-        drop(pass);
-        subject.rig.queue.submit([encoder.finish()]);
         let momentum =
             |f: &[f64; Q], a: usize| (0..Q).map(|q| f[q] * f64::from(C[q][a])).sum::<f64>();
         let sample = |(cell, after): (usize, &[f64; Q])| {

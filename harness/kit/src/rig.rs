@@ -6,7 +6,11 @@ use crate::{
 };
 use riprap::{
     Result,
-    gpu::{kernel::Kernel, link::Program, readback::Readback},
+    gpu::{
+        kernel::{Kernel, submit_pass},
+        link::Program,
+        readback::Readback,
+    },
     lattice::{Lattice, Observer, Populations, Setup, State},
     scene::{Kernels, Scene},
     simulation::Simulation,
@@ -74,14 +78,9 @@ impl Rig {
     pub fn run(&self, lattice: &mut Lattice, steps: usize) {
         // Small submissions keep each wait short on slow adapters.
         for chunk in (0..steps).collect::<Vec<_>>().chunks(64) {
-            let mut encoder = self.device.create_command_encoder(&Default::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                for _ in chunk {
-                    lattice.record(&mut pass);
-                }
-            }
-            self.queue.submit([encoder.finish()]);
+            submit_pass(&self.device, &self.queue, |pass| {
+                chunk.iter().for_each(|_| lattice.record(pass));
+            });
         }
     }
 
@@ -154,20 +153,15 @@ impl Workbench {
         let constants = linked.constants_of(constants);
         let kernel = Kernel::new(device, &linked, entry, &constants).unwrap();
         let bind = kernel.bind(device, buffers).unwrap();
-        let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            let groups = invocations.div_ceil(64) as u32;
-            match self.grid {
-                Some(width) => {
-                    // With a last row that is not full, and one row too many.
-                    let grid = [width, groups.div_ceil(width) + 1];
-                    kernel.record_grid(&mut pass, &bind, grid);
-                }
-                None => kernel.record(&mut pass, &bind, groups),
+        let groups = invocations.div_ceil(64) as u32;
+        submit_pass(device, &self.rig.queue, |pass| match self.grid {
+            Some(width) => {
+                // With a last row that is not full, and one row too many.
+                let grid = [width, groups.div_ceil(width) + 1];
+                kernel.record_grid(pass, &bind, grid);
             }
-        }
-        self.rig.queue.submit([encoder.finish()]);
+            None => kernel.record(pass, &bind, groups),
+        });
     }
 
     /// The values of a buffer.

@@ -10,7 +10,7 @@ use kit::{clock::Clock, gpu, subject::Subject};
 use riprap::{
     Error, Result,
     geometry::{Pose, Shape},
-    gpu::readback::Readback,
+    gpu::{kernel::submit_pass, readback::Readback},
     lattice::{
         Grid, Lattice, Memory, Setup, SolidOperator, State, Storage, bytes_per_cell, memory,
     },
@@ -292,17 +292,12 @@ fn coupled(clock: &mut Clock, mut lattice: Lattice) -> Result<(f64, u32)> {
             };
             let poses: Vec<_> = places.iter().map(pose).collect();
             immersed.place(&device, &queue, &mut lattice, &poses)?;
-            let mut encoder = device.create_command_encoder(&Default::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                immersed.record_cells(&mut pass);
-                lattice.record_psm(&mut pass);
-                immersed.record_loads(&mut pass);
-            }
-            queue.submit([encoder.finish()]);
-            let mut encoder = device.create_command_encoder(&Default::default());
-            lattice.record_rest(&mut encoder.begin_compute_pass(&Default::default()));
-            queue.submit([encoder.finish()]);
+            submit_pass(&device, &queue, |pass| {
+                immersed.record_cells(pass);
+                lattice.record_psm(pass);
+                immersed.record_loads(pass);
+            });
+            submit_pass(&device, &queue, |pass| lattice.record_rest(pass));
             let (sums, count) = (immersed.wrenches(), immersed.wrench_count());
             let read = readback.read(&device, &queue, sums, count);
             let read: Vec<f32> = gpu::drive(&device, PATIENCE, "the loads", read)??;

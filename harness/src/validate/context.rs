@@ -5,7 +5,7 @@ use crate::{gpu, picture::Chart};
 use anyhow::Context;
 use kit::clock::{PATIENCE, Spent, Stopwatch};
 use riprap::{
-    gpu::readback::Readback,
+    gpu::{kernel::submit_pass, readback::Readback},
     lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums, WallStress},
     wgpu,
 };
@@ -175,14 +175,9 @@ impl Flow<'_> {
             let most = if warm { chunk } else { WARM_UP };
             let some = most.min(end - self.lattice.step());
             let watch = Stopwatch::start();
-            let mut encoder = device.create_command_encoder(&Default::default());
-            {
-                let mut pass = encoder.begin_compute_pass(&Default::default());
-                for _ in 0..some {
-                    self.lattice.record(&mut pass);
-                }
-            }
-            queue.submit([encoder.finish()]);
+            submit_pass(device, queue, |pass| {
+                (0..some).for_each(|_| self.lattice.record(pass));
+            });
             fault = self.fault()?;
             if warm {
                 self.stepping += watch.spent();

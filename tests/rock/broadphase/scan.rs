@@ -1,7 +1,7 @@
 //! The scan (exclusive prefix sum): each value becomes the sum of all values before it.
 
 use kit::{Workbench, broadphase::Random};
-use riprap::gpu::{bins::Scan, link::Program};
+use riprap::gpu::{bins::Scan, kernel::submit_pass, link::Program};
 
 /// The same in integers that cannot overflow.
 fn twin(values: &[u32]) -> (Vec<u32>, u32) {
@@ -30,9 +30,7 @@ fn scanned<const N: usize>(bench: &Workbench, rounds: [&[u32]; N]) -> [(Vec<u32>
     rounds.map(|values| {
         let bytes = bytemuck::cast_slice(values);
         bench.rig.queue.write_buffer(&buffer, 0, bytes);
-        let mut encoder = device.create_command_encoder(&Default::default());
-        scan.record(&mut encoder.begin_compute_pass(&Default::default()), &of);
-        bench.rig.queue.submit([encoder.finish()]);
+        submit_pass(device, &bench.rig.queue, |pass| scan.record(pass, &of));
         (bench.read(&buffer), bench.read::<u32>(of.total())[0])
     })
 }

@@ -12,6 +12,7 @@ use glam::{DQuat, DVec3};
 use kit::clock::exponent;
 use riprap::{
     geometry::{Pose, Shape},
+    gpu::kernel::submit_pass,
     lattice::{Lattice, Setup, SolidOperator},
     psm::{Frame, SolidBlock, SolidCells},
     units::Units,
@@ -245,9 +246,7 @@ fn solid_fractions(turns: &InterleavedRuns, across: u32) -> anyhow::Result<f64> 
             place += STRIDE * DVec3::new(0.5, 0.3, 0.8);
             let pose = Pose::rigid(place, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
             cells.place(device, queue, &mut lattice, &[pose])?;
-            let mut encoder = device.create_command_encoder(&Default::default());
-            cells.record_cells(&mut encoder.begin_compute_pass(&Default::default()));
-            queue.submit([encoder.finish()]);
+            submit_pass(device, queue, |pass| cells.record_cells(pass));
             turns.clock.wait()?;
         }
         Ok(())

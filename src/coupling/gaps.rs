@@ -4,7 +4,7 @@ use crate::{
     Result,
     geometry::HalfSpace,
     rock::{
-        Blocks, Period, Setup,
+        Blocks, Setup,
         broadphase::{Aabb, Broadphase},
         contact::Placed,
     },
@@ -43,11 +43,7 @@ pub(crate) async fn gaps(
     cell: f64,
     broadphase: &mut impl Broadphase,
 ) -> Result<Vec<Gap>> {
-    let mut parts = Vec::new();
-    for (block, pose) in blocks.poses().iter().enumerate() {
-        let own = setup.blocks[block].shape.parts().iter();
-        parts.extend(own.map(|part| (block, Placed::of(part, pose))));
-    }
+    let parts = placed_parts(setup, blocks);
     let (mut owners, mut placed) = (Vec::new(), Vec::new());
     for (part, shift) in blocks.images() {
         let (block, at) = &parts[part];
@@ -87,12 +83,8 @@ pub(crate) fn narrowest(
     blocks: &Blocks,
     (in_fluid, cell, within): (usize, f64, f64),
 ) -> Option<Gap> {
-    let mut parts = Vec::new();
-    for (block, pose) in blocks.poses().iter().enumerate() {
-        let own = setup.blocks[block].shape.parts().iter();
-        parts.extend(own.map(|part| (block, Placed::of(part, pose))));
-    }
-    let offsets = setup.period.as_ref().map_or(vec![DVec3::ZERO], offsets);
+    let parts = placed_parts(setup, blocks);
+    let period = setup.period.as_ref();
     let of_part = |(block, part): &(usize, Placed)| {
         let mut least: Option<Gap> = None;
         for (other, its) in &parts {
@@ -100,16 +92,20 @@ pub(crate) fn narrowest(
             if other < block {
                 continue;
             }
-            for offset in &offsets {
-                let apart = its.centre + *offset - part.centre;
-                let near = part.radius + its.radius + within;
-                if (other == block && *offset == DVec3::ZERO)
-                    || apart.length_squared() > near * near
-                {
+            let apart = its.centre - part.centre;
+            let near = part.radius + its.radius + within;
+            let is_near = |shift: &DVec3| (apart + *shift).length_squared() <= near * near;
+            let nearest = period.map_or(DVec3::ZERO, |period| period.nearest(apart));
+            if !is_near(&nearest) {
+                continue;
+            }
+            let shifts = period.map_or(vec![nearest], |period| period.image_shifts(apart, near));
+            for shift in shifts.into_iter().filter(is_near) {
+                if other == block && shift == DVec3::ZERO {
                     continue;
                 }
                 let image = Placed {
-                    centre: its.centre + *offset,
+                    centre: its.centre + shift,
                     ..its.clone()
                 };
                 let found = Gap {
@@ -132,18 +128,14 @@ pub(crate) fn narrowest(
         .min_by(|a, b| a.width.total_cmp(&b.width))
 }
 
-/// The offsets of a block and its neighbouring periodic images.
-fn offsets(period: &Period) -> Vec<DVec3> {
-    let mut offsets = vec![DVec3::ZERO];
-    for axis in (0..3).filter(|axis| period.size[*axis].is_finite()) {
-        let length = period.size[axis] * DVec3::AXES[axis];
-        let moved = offsets
-            .iter()
-            .flat_map(|offset| [*offset + length, *offset - length]);
-        let moved: Vec<DVec3> = moved.collect();
-        offsets.extend(moved);
+/// The convex parts of all blocks at their poses, with their blocks.
+fn placed_parts(setup: &Setup, blocks: &Blocks) -> Vec<(usize, Placed)> {
+    let mut placed = Vec::new();
+    for (block, pose) in blocks.poses().iter().enumerate() {
+        let parts = setup.blocks[block].shape.parts().iter();
+        placed.extend(parts.map(|part| (block, Placed::of(part, pose))));
     }
-    offsets
+    placed
 }
 
 /// The largest height of a part over the faces of `own`, m.
@@ -172,7 +164,7 @@ mod tests {
     use super::*;
     use crate::{
         geometry::{Polyhedron, Shape},
-        rock::{Block, Material, broadphase::HostBroadphase},
+        rock::{Block, Material, Period, broadphase::HostBroadphase},
     };
 
     #[test]

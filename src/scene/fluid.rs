@@ -73,7 +73,10 @@ impl Scene {
                 )
             };
             return self.refuse_quantities(of_control, |name| {
-                format!("{name} is of a flow with `fluid.bulk_velocity`, which this scene lacks")
+                format!(
+                    "{name} is of a flow with `fluid.bulk_velocity`, which this scene lacks: give it, or \
+                     leave {name} out"
+                )
             });
         };
         if self.has_particles() {

@@ -159,6 +159,13 @@ fn scenes_are_refused_at_their_key() {
             "use time_step ≤ 5.774e-2 s",
         ],
     );
+    let probe = "[[probes]]\nname = \"front\"\nkind = \"face\"\nmin = [0, 0, 0]\nmax = [0.08, 0.08, 0.04]\n\
+                 normal = \"+x\"\n";
+    refused(
+        "face_of_nothing",
+        &format!("{RIGHT}{probe}"),
+        &["probes.front", "has a solid cell on the side"],
+    );
     let open = "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0.02 0.02 0.02\nvertex 0.06 0.02 \
                 0.02\nvertex 0.02 0.06 0.03\nendloop\nendfacet\nendsolid open\n";
     std::fs::write(folder().join("open.stl"), open).unwrap();

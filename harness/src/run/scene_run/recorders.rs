@@ -61,12 +61,9 @@ impl SceneRun {
                 let tables = [*faces && kind == Kind::Lattice, *safety];
                 block_probe::recorders(self, folder, last, (probe, block), tables)
             }
-            (_, Kind::Rock) => {
-                let message = "measures a fluid, and there is none";
-                Err(Error::scene(format!("probes.{}", probe.name), message))
-            }
-            (_, Kind::Lattice) => {
-                let gauge = Gauge::new(self.scene(), simulation.solid(), probe)?;
+            (_, Kind::Particles) => Ok(vec![gauges::recorder(self, folder, last, probe)?]),
+            (_, Kind::Rock | Kind::Lattice) => {
+                let gauge = self.gauge(probe)?;
                 let table = TimeTable {
                     name: probe.name.clone(),
                     every: probe.every,
@@ -81,7 +78,18 @@ impl SceneRun {
                 });
                 Ok(vec![recorder?])
             }
-            (_, Kind::Particles) => Ok(vec![gauges::recorder(self, folder, last, probe)?]),
         }
+    }
+
+    /// The cells of the lattice that a probe measures.
+    ///
+    /// # Errors
+    /// If there is no lattice, or the probe has no place in it.
+    pub fn gauge(&self, probe: &Probe) -> Result<Gauge> {
+        if self.simulation.kind() != Kind::Lattice {
+            let message = "measures a fluid, and there is none";
+            return Err(Error::scene(format!("probes.{}", probe.name), message));
+        }
+        Gauge::new(self.scene(), self.simulation.solid(), probe)
     }
 }

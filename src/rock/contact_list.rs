@@ -9,6 +9,7 @@ use crate::rock::{
     law::{Force, Stiffness},
 };
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Index that stands for no contact.
 pub(super) const NO_CONTACT: u32 = u32::MAX;
@@ -18,7 +19,7 @@ pub(super) const NO_CONTACT: u32 = u32::MAX;
 pub(super) const DISTANCES_PER_LIMIT: f64 = 10.0;
 
 /// A contact. Vectors are in world axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Contact {
     pub parts: [u32; 2],
@@ -43,8 +44,8 @@ pub(super) struct Contact {
     pub limit: f64,
     /// Force on the second block.
     pub force: Force,
-    /// The bond between the faces; its area is 0 if there is none.
-    pub bond: Bond,
+    /// The bond between the faces.
+    pub bond: Option<Arc<Bond>>,
     /// Work done on the springs, less the work of friction, J.
     pub stored: f64,
     /// Rate of work on the springs at the end of the last step, W.

@@ -22,7 +22,7 @@ use rayon::slice::ParallelSliceMut;
 use rayon_cond::CondIterator;
 use std::{
     fmt,
-    sync::{Mutex, PoisonError},
+    sync::{Arc, Mutex, PoisonError},
 };
 
 /// Area that one of the four corners of a face carries, relative to the square of the block's width: see
@@ -128,7 +128,7 @@ impl Narrowphase<'_> {
                 Some(_) => (n * CHUNK + found.contacts.len()) as u32,
                 None => NO_CONTACT,
             };
-            if let (Some(before), None) = (before, contact) {
+            if let (Some(before), None) = (before, &contact) {
                 // The force of the ended contact has acted during the first half of the step.
                 let stored = before.stored + 0.5 * self.time_step * before.power;
                 found.ended.push(stored);
@@ -153,7 +153,7 @@ impl Narrowphase<'_> {
                     friction: 0.0,
                     ..contact.force
                 },
-                ..*contact
+                ..contact.clone()
             }));
         }
         let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
@@ -172,8 +172,8 @@ impl Narrowphase<'_> {
             blocks,
             image_shift,
         };
-        if let Some(contact) = before.filter(|contact| contact.bond.area > 0.0)
-            && let Some(bonded) = self.bonded_contact(ids, [first, second], &contact.bond, before)
+        if let Some(bond) = before.and_then(|contact| contact.bond.as_ref())
+            && let Some(bonded) = self.bonded_contact(ids, [first, second], bond, before)
         {
             return self.check_depth(bonded, blocks).map(Some);
         }
@@ -181,7 +181,7 @@ impl Narrowphase<'_> {
         if self.bonding
             && joint.tensile_strength > 0.0
             && let Some(bond) = Bond::between(first, second)
-            && let Some(bonded) = self.bonded_contact(ids, [first, second], &bond, None)
+            && let Some(bonded) = self.bonded_contact(ids, [first, second], &Arc::new(bond), None)
         {
             return Ok(Some(bonded));
         }
@@ -206,7 +206,7 @@ impl Narrowphase<'_> {
         Ok(match verdict {
             Verdict::Apart => None,
             Verdict::Undecided => before.map(|contact| Contact {
-                bond: Bond::default(),
+                bond: None,
                 overlap: 0.0,
                 area: 0.0,
                 section: 0.0,
@@ -315,7 +315,7 @@ impl Narrowphase<'_> {
             width: geometry.width,
             limit: geometry.limit,
             force: law::force(joint, &section, &motion, &history),
-            bond: Bond::default(),
+            bond: None,
             stored: before.map_or(0.0, |contact| contact.stored),
             power: before.map_or(0.0, |contact| contact.power),
         }
@@ -347,7 +347,7 @@ impl Narrowphase<'_> {
         &self,
         ids: PairIds,
         [first, second]: [&Placed; 2],
-        bond: &Bond,
+        bond: &Arc<Bond>,
         before: Option<&Contact>,
     ) -> Option<Contact> {
         let PairIds {
@@ -383,13 +383,13 @@ impl Narrowphase<'_> {
             overlap: now.overlap,
             area: bond.area,
             section: bond.area,
-            width: bond.width(),
+            width: bond.width,
             limit: 0.1 * first.smallest_distance.min(second.smallest_distance),
             force: law::Force {
                 bending: joint.normal_stiffness * now.moment(bond),
                 ..force
             },
-            bond: *bond,
+            bond: Some(bond.clone()),
             stored: before.map_or(0.0, |contact| contact.stored),
             power: before.map_or(0.0, |contact| contact.power),
         })

@@ -3,7 +3,14 @@
 use crate::fixture::{assert_restarts, blocks, cuboid, formulas, run, setup};
 use glam::DVec3;
 use kit::assert_relative;
-use riprap::rock::{Block, Blocks, PairMaterial, PointLoad, Setup, Sleep, law::Joint};
+use riprap::{
+    geometry::{HalfSpace, Polyhedron},
+    rock::{Block, Blocks, PairMaterial, PointLoad, Setup, Sleep, law::Joint},
+};
+use std::{
+    f64::consts::{PI, TAU},
+    sync::Arc,
+};
 
 /// Weight of the hanging block, N: 0.2 × 0.3 × 0.1 m of 2500 kg/m³.
 const WEIGHT: f64 = 0.006 * 2500.0 * 9.81;
@@ -119,6 +126,59 @@ fn a_cantilever_breaks_by_the_tension_at_its_edge() {
     assert_relative(held, exact, 0.01);
     let fallen = of(0.98);
     assert!(fallen > 1e-3, "{fallen} m");
+}
+
+/// A block bonded by a face whose principal moments are equal, turned about its axis: the strength is that of the corner
+/// farthest from the neutral axis. The face has `corners` corners at `radius`.
+#[test]
+fn the_strength_of_a_regular_patch_is_that_of_its_farthest_corner() {
+    const LENGTH: f64 = 0.3;
+    for (corners, angles) in [(4, [0.0, 10.0, 45.0]), (6, [0.0, 20.0, 30.0])] {
+        for angle in angles {
+            let radius = 0.1;
+            let n = f64::from(corners);
+            let at = |k: f64| {
+                DVec3::X
+                    .cross(DVec3::Y)
+                    .rotate_x(f64::to_radians(angle) + TAU * k / n)
+            };
+            let side = |k: i32| {
+                let normal = at(f64::from(k) + 0.5);
+                HalfSpace::through(radius * (PI / n).cos() * normal, normal)
+            };
+            let ends = [-DVec3::X, DVec3::X].map(|x| HalfSpace::through(0.5 * LENGTH * x, x));
+            let faces: Vec<HalfSpace> = (0..corners).map(side).chain(ends).collect();
+            let (shape, _) = Polyhedron::from_half_spaces(&faces).unwrap();
+            let area = 0.5 * n * radius * radius * (TAU / n).sin();
+            // ∫ z² dA of a regular polygon.
+            let second = n / 24.0 * radius.powi(4) * (TAU / n).sin() * (2.0 + (TAU / n).cos());
+            let heights = (0..corners).map(|k| radius * at(f64::from(k)).z);
+            let farthest = heights.fold(0.0, f64::max);
+            let weight = area * LENGTH * 2500.0 * 9.81;
+            let strength = weight * 0.5 * LENGTH * farthest / second;
+            let sunk = |share: f64| {
+                let joint = Joint {
+                    cohesion: 1e6,
+                    ..tensile(share * strength)
+                };
+                let wall = Block::new("wall", cuboid(0.2, 1.0, 1.0), DVec3::X * -0.1).fixed();
+                let block = Block::new(
+                    "block",
+                    Arc::new(shape.clone().into()),
+                    DVec3::X * 0.5 * LENGTH,
+                );
+                let mut setup = setup(vec![wall, block], joint);
+                setup.gravity = DVec3::ZERO;
+                slowly(&mut setup);
+                sunk(setup, 1)
+            };
+            let [held, fallen] = [1.02, 0.98].map(sunk);
+            assert!(
+                held < 1e-3 && fallen > 1e-2,
+                "{corners} {angle}: {held} m {fallen} m"
+            );
+        }
+    }
 }
 
 /// A load that tears the block off at 5 kPa, presses it back, and pulls with half of that stress.

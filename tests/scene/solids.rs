@@ -320,6 +320,40 @@ fn obj_files_are_read() {
     assert_eq!(scene.solid_mask().unwrap().solid_count(), 64);
 }
 
+/// Texts keep the decimals of coordinates that f32 rounds to half a metre; binary STL has lost them.
+#[test]
+fn meshes_keep_the_coordinates_of_surveys() {
+    let dir = scratch("survey_mesh");
+    let corner = DVec3::new(512_000.3, 5_403_000.7, 430.2);
+    let triangles = cuboid(corner, corner + DVec3::splat(0.3));
+    let (mut obj, mut stl) = (String::new(), String::from("solid cube\n"));
+    for triangle in &triangles {
+        stl += "facet normal 0 0 0\n outer loop\n";
+        for DVec3 { x, y, z } in triangle {
+            obj += &format!("v {x} {y} {z}\n");
+            stl += &format!("  vertex {x} {y} {z}\n");
+        }
+        obj += "f -3 -2 -1\n";
+        stl += " endloop\nendfacet\n";
+    }
+    fs::write(dir.join("cube.obj"), obj).unwrap();
+    fs::write(dir.join("cube.stl"), stl + "endsolid cube\n").unwrap();
+    write_stl(&dir.join("binary.stl"), &triangles);
+    let read = |name: &str| TriangleMesh::read(&dir.join(name), 1.0, (-corner).to_array());
+    for name in ["cube.obj", "cube.stl"] {
+        let mesh = read(name).unwrap();
+        assert_eq!(mesh.vertices.len(), 8, "{name}");
+        for vertex in &mesh.vertices {
+            let nearest = (vertex / 0.3).round().clamp(DVec3::ZERO, DVec3::ONE) * 0.3;
+            assert!(vertex.distance(nearest) < 1e-7, "{name} {vertex}");
+        }
+    }
+    refused(
+        read("binary.stl"),
+        &["binary.stl", "32 bits", "export it as text"],
+    );
+}
+
 #[test]
 fn open_meshes_are_refused_with_the_hole() {
     let dir = scratch("open_mesh");

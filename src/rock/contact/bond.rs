@@ -9,9 +9,8 @@ const TOUCHING_GAP: f64 = 1e-9;
 /// of the width of rounding, which is not bonded.
 const SMALLEST_PATCH: f64 = 1e-6;
 
-/// The patch in which two faces touch, fixed in both parts; there is no bond if its area is 0. Vectors of a part are in
-/// the frame of its undeformed block.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// The patch in which two faces touch, fixed in both parts. Vectors of a part are in the frame of its undeformed block.
+#[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "checkpoint", derive(serde::Serialize, serde::Deserialize))]
 pub struct Bond {
     /// m².
@@ -24,8 +23,10 @@ pub struct Bond {
     pub normals: [DVec3; 2],
     /// First principal axis of the patch, in the frame of the first part.
     pub axis: DVec3,
-    /// Smallest and largest coordinate of a corner along the first and the second axis, from the centroid, m.
-    pub extents: [[f64; 2]; 2],
+    /// Corners of the patch along the first and the second axis, from the centroid, m.
+    pub corners: Vec<DVec2>,
+    /// Largest distance between two corners, m.
+    pub width: f64,
     /// ∫ x² dA along the first and the second axis, m⁴.
     pub seconds: [f64; 2],
 }
@@ -65,12 +66,9 @@ impl Bond {
         let point = face_pair.lift(seconds.centre) - face_pair.out * (0.5 * overlap);
         let axis = face_pair.x * seconds.axis.x + face_pair.y * seconds.axis.y;
         let along = [seconds.axis, face_pair.flat(normal.cross(axis))];
-        let extents = along.map(|axis: DVec2| {
-            let heights = face_pair.polygon.corners.iter();
-            let heights = heights.map(|corner| axis.dot(*corner - seconds.centre));
-            heights.fold([0.0, 0.0], |[smallest_overlap, most]: [f64; 2], height| {
-                [smallest_overlap.min(height), most.max(height)]
-            })
+        let corners = face_pair.polygon.corners.iter().map(|corner| {
+            let arm = *corner - seconds.centre;
+            DVec2::from(along.map(|axis: DVec2| axis.dot(arm)))
         });
         let [own, other] = [first, second].map(|part| part.deformation.inverse());
         // Normals transform with F⁻ᵀ.
@@ -84,7 +82,8 @@ impl Bond {
             ],
             normals: [back(first), back(second)],
             axis: own * axis,
-            extents,
+            corners: corners.collect(),
+            width: face_pair.polygon.width(),
             seconds: seconds.principal,
         })
     }
@@ -114,24 +113,14 @@ impl Bond {
             tilts: axes.map(|axis| tilt.dot(axis)),
         }
     }
-
-    /// Largest extent of the patch, m.
-    pub fn width(&self) -> f64 {
-        let [along, across] = self
-            .extents
-            .map(|[smallest_overlap, most]| most - smallest_overlap);
-        along.hypot(across)
-    }
 }
 
 impl BondState {
-    /// Overlap at the point of largest opening, m: the minimum of u + θ₂ x₁ − θ₁ x₂ at the corners of the bounding
-    /// rectangle of the patch along the axes.
+    /// Overlap at the point of largest opening, m: the minimum of u + θ₂ x₁ − θ₁ x₂ at the corners of the patch.
     pub fn smallest_overlap(&self, bond: &Bond) -> f64 {
-        let smallest_overlap = |slope: f64, [low, high]: [f64; 2]| (slope * low).min(slope * high);
-        self.overlap
-            + smallest_overlap(self.tilts[1], bond.extents[0])
-            + smallest_overlap(-self.tilts[0], bond.extents[1])
+        let slope = DVec2::new(self.tilts[1], -self.tilts[0]);
+        let changes = bond.corners.iter().map(|corner| slope.dot(*corner));
+        self.overlap + changes.fold(0.0, f64::min)
     }
 
     /// ∫ x xᵀ dA/A of the patch about its centroid, m².

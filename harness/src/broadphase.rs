@@ -54,10 +54,14 @@ pub fn left_out(all: &[DiscardedPieces]) -> impl Iterator<Item = String> {
     let line = |lost: &DiscardedPieces| {
         format!(
             "{} pieces of {}, {:.1} % of it: smaller or thinner than its smallest_volume and \
-             smallest_thickness",
+             smallest_thickness{}",
             lost.pieces,
             lost.mass,
-            100.0 * lost.share
+            100.0 * lost.share,
+            match lost.narrow {
+                0 => String::new(),
+                narrow => format!(", {narrow} of them narrower than its aperture"),
+            }
         )
     };
     all.iter().map(line)

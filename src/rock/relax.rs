@@ -14,7 +14,8 @@ use glam::DVec3;
 impl Blocks {
     /// Pushes overlapping blocks apart along their contact normals, pair after pair, until no overlap exceeds
     /// [`Setup::start_overlap`](super::Setup::start_overlap). The blocks of a pair move in inverse proportion to their
-    /// masses. No block rotates, fixed and driven blocks do not move, and velocities do not change.
+    /// masses; blocks with the same centre, whose contact has no normal, along gravity. No block rotates, fixed and driven
+    /// blocks do not move, and velocities do not change.
     ///
     /// Returns the number of sweeps over all pairs, at most `sweeps`.
     ///
@@ -86,11 +87,17 @@ impl Blocks {
                 continue;
             }
             // Half the allowed overlap remains, so that neighbours in contact stay in contact.
-            let distance = contact.overlap - 0.5 * most;
+            let (normal, distance) = match contact.overlap.is_finite() {
+                true => (contact.normal, contact.overlap - 0.5 * most),
+                false => {
+                    let down = self.gravity.try_normalize().unwrap_or(DVec3::NEG_Z);
+                    (down, DISTANCES_PER_LIMIT * contact.limit)
+                }
+            };
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
                 let share = inverse[k] / (inverse[0] + inverse[1]);
                 let block = blocks[k];
-                self.states[block].centre += contact.normal * (sign * share * distance);
+                self.states[block].centre += normal * (sign * share * distance);
                 let body = &self.bodies[block];
                 let pose = pose(body, &self.states[block], &self.deforming.strains);
                 self.parts.place_block(body, &pose);

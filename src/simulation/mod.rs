@@ -176,7 +176,11 @@ impl Simulation {
         let time_step = rock_step(scene, rock.blocks())?;
         Ok(Self {
             scene: Arc::new(scene.clone()),
-            advice: scene.suspicious_keys(time_step),
+            advice: [
+                scene.suspicious_keys(time_step),
+                rock.setup().advice.clone(),
+            ]
+            .concat(),
             rock: Some(rock),
             fluid: None,
             time_step,
@@ -188,7 +192,11 @@ impl Simulation {
         let (fluid, rock, time_step) = SphFluid::new(device, queue, scene).await?;
         Ok(Self {
             scene: Arc::new(scene.clone()),
-            advice: scene.suspicious_keys(time_step),
+            advice: [
+                scene.suspicious_keys(time_step),
+                rock.setup().advice.clone(),
+            ]
+            .concat(),
             rock: Some(rock),
             fluid: Some(Fluid::Particles(Box::new(fluid))),
             time_step,
@@ -209,6 +217,7 @@ impl Simulation {
         let (fluid, rock, of_blocks) =
             LatticeFluid::new(device, queue, (&scene, units), setup).await?;
         advice.extend(of_blocks);
+        advice.extend(rock.iter().flat_map(|rock| rock.setup().advice.clone()));
         Ok(Self {
             scene,
             advice,

@@ -246,18 +246,51 @@ fn a_half_space_becomes_a_box_beyond_the_domain() {
 }
 
 /// A cube of 2 m cut at a height of 0.5 m, into 2 and 6 m³.
+fn cut_cube(keys: &str) -> Scene {
+    read(&format!(
+        "[[materials]]\nname = \"rock\"\ndensity = 2700\nnormal_stiffness = 1e9\nfriction = 30\n\
+         [[rock_masses]]\nname = \"mass\"\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [2, 2, 2]\n{keys}\n\
+         joints = [{{ dip = 0, dip_direction = 0, spacing = 1.5, distribution = \"none\", \
+         origin = [0, 0, 0.5] }}]\n[run]\nduration = 1\n"
+    ))
+    .unwrap()
+}
+
 #[test]
-fn pieces_that_are_left_out_are_told() {
-    let scene = |least: f64| {
-        read(&format!(
-            "[[materials]]\nname = \"rock\"\ndensity = 2700\nnormal_stiffness = 1e9\nfriction = 30\n\
-             [[rock_masses]]\nname = \"mass\"\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [2, 2, 2]\n\
-             smallest_volume = {least}\n\
-             joints = [{{ dip = 0, dip_direction = 0, spacing = 1.5, distribution = \"none\", \
-             origin = [0, 0, 0.5] }}]\n[run]\nduration = 1\n"
-        ))
-        .unwrap()
-    };
+fn keys_of_rock_masses_without_effect_are_warned_of() {
+    let nowhere = "[{ kind = \"box\", min = [5, 5, 5], max = [6, 6, 6] }]";
+    for key in ["fixed", "removed"] {
+        let found = block_setup(&cut_cube(&format!("{key} = {nowhere}"))).unwrap();
+        assert_eq!(found.setup.blocks.len(), 2);
+        let [warning] = &found.advice[..] else {
+            panic!("{:?}", found.advice);
+        };
+        assert_eq!(warning.place, format!("rock_masses[0].{key}"));
+    }
+    let all = "[{ kind = \"box\", min = [0, 0, 0], max = [2, 2, 2] }]";
+    let found = block_setup(&cut_cube(&format!("fixed = {all}"))).unwrap();
+    assert!(found.advice.is_empty(), "{:?}", found.advice);
+}
+
+#[test]
+fn rock_masses_of_which_nothing_is_left_are_refused() {
+    let all = "removed = [{ kind = \"box\", min = [0, 0, 0], max = [2, 2, 2] }]";
+    for (keys, words) in [
+        (all, "2 of its pieces are in `removed`"),
+        ("smallest_volume = 7", "2 are smaller or thinner"),
+        ("aperture = 1.9", "2 are narrower than an aperture of 1.9 m"),
+    ] {
+        let error = block_setup(&cut_cube(keys)).unwrap_err().to_string();
+        assert!(
+            error.contains("rock_masses[0]") && error.contains(words),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn pieces_that_are_left_out_are_counted() {
+    let scene = |least: f64| cut_cube(&format!("smallest_volume = {least}"));
     let whole = block_setup(&scene(0.1)).unwrap();
     assert_eq!((whole.setup.blocks.len(), whole.left_out.len()), (2, 0));
     let trimmed = block_setup(&scene(3.0)).unwrap();

@@ -88,9 +88,10 @@ fn lasting(scene: &Scene, args: &Args, time_step: f64) -> Run {
     }
 }
 
-/// Length of the steps and of the sub-steps of dry blocks, s.
+/// Length of the steps and of the sub-steps of dry blocks, s, once their contacts are known.
 fn steps_of(scene: &Scene, args: &Args) -> Result<(f64, f64)> {
-    let run = SceneRun::open(scene, &args.scene, args.adapter.as_deref())?;
+    let mut run = SceneRun::open(scene, &args.scene, args.adapter.as_deref())?;
+    run.advance(1)?;
     let sub_step = run.rock().map(|rock| rock.blocks.time_step());
     let step = run.time_step();
     Ok((step, sub_step.unwrap_or(step).min(step)))

@@ -64,7 +64,7 @@ pub fn run(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let coarse = computed(&half.scene, &rough, stop).map_err(|error| {
         let hint = match error.downcast_ref() {
             Some(Error::TimeStep { .. }) => {
-                ": give the scene half of the rock.time_step that it names"
+                ": give the scene a rock.time_step of half the longest one named here"
             }
             _ => "",
         };

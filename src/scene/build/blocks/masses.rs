@@ -7,18 +7,19 @@ use super::{
     solids::holds,
 };
 use crate::{
-    Result,
+    Error, Result,
     geometry::{Compass, HalfSpace, JointSet, Persistence, Polyhedron, RockMass, Scatter},
     rock::{Block, Deformable, Motion},
-    scene::{self, Distribution, Scene, Volume},
+    scene::{self, Advice, Distribution, Scene, Volume, Warning},
 };
 use glam::DVec3;
 
-/// The blocks of the rock mass `index`, and the pieces that are too small for a block.
+/// The blocks of the rock mass `index`, and the pieces that are too small for a block; `advice` takes warnings.
 pub(super) fn blocks(
     scene: &Scene,
     index: usize,
     mass: &scene::RockMass,
+    advice: &mut Advice,
 ) -> Result<(Vec<Block>, DiscardedPieces)> {
     let key = format!("rock_masses[{index}]");
     let name = match &mass.name {
@@ -45,14 +46,17 @@ pub(super) fn blocks(
     let mut left_out = DiscardedPieces {
         mass: name.clone(),
         pieces: fragments.slivers.len(),
+        narrow: 0,
         share: fragments.slivers.iter().map(|s| s.volume).sum::<f64>() / fragments.volume,
     };
     let removed = holds(scene, &mass.removed)?;
     let fixed = holds(scene, &mass.fixed)?;
+    let pieces = fragments.blocks.len();
     let kept = fragments.blocks.into_iter();
-    let kept = kept.filter(|fragment| !removed(fragment.centre));
+    let kept: Vec<_> = kept.filter(|fragment| !removed(fragment.centre)).collect();
+    let removed = pieces - kept.len();
     let mut blocks = Vec::new();
-    for (number, fragment) in kept.enumerate() {
+    for (number, fragment) in kept.into_iter().enumerate() {
         let motion = if fixed(fragment.centre) {
             Motion::Fixed
         } else {
@@ -61,6 +65,7 @@ pub(super) fn blocks(
         let volume = fragment.shape.volume();
         let Some((shape, offset)) = opened(fragment.shape, mass.aperture) else {
             left_out.pieces += 1;
+            left_out.narrow += 1;
             left_out.share += volume / fragments.volume;
             continue;
         };
@@ -78,6 +83,39 @@ pub(super) fn blocks(
                 fragment.centre + offset,
             )
         });
+    }
+    if blocks.is_empty() {
+        let small = left_out.pieces - left_out.narrow;
+        let message = format!(
+            "no block is left of {name}: {removed} of its pieces are in `removed`, {small} are smaller or thinner than \
+             smallest_volume and smallest_thickness allow, {} are narrower than an aperture of {} m; change these keys",
+            left_out.narrow, mass.aperture
+        );
+        return Err(Error::scene(key, message));
+    }
+    let mut warn = |part: &str, message: &str| {
+        advice.push(Warning {
+            place: format!("{key}.{part}"),
+            message: message.into(),
+        });
+    };
+    if !mass.fixed.is_empty() && blocks.iter().all(|block| block.motion == Motion::Free) {
+        warn(
+            "fixed",
+            "holds the centroid of no block: all blocks are free; move its regions, or remove it",
+        );
+    }
+    if !mass.removed.is_empty() && removed == 0 {
+        warn(
+            "removed",
+            "holds the centroid of no block: all blocks are there; move its regions, or remove it",
+        );
+    }
+    if pieces + left_out.pieces == 1 && !mass.joints.is_empty() {
+        warn(
+            "joints",
+            "none of them cuts the mass, which is one block; check their origins and spacings",
+        );
     }
     Ok((blocks, left_out))
 }

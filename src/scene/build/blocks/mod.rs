@@ -11,7 +11,7 @@ pub(crate) use shapes::{rotation, shape};
 use crate::{
     Error, Result,
     rock::{Block, Guide, Period, Setup, Sleep},
-    scene::{Boundary, Face, ProbePlace, Scene},
+    scene::{Advice, Boundary, Face, ProbePlace, Scene},
 };
 use glam::DVec3;
 use std::collections::HashSet;
@@ -23,6 +23,8 @@ pub struct BlockSetup {
     pub setup: Setup,
     /// The rock masses from which pieces are left out.
     pub left_out: Vec<DiscardedPieces>,
+    /// Warnings about keys of rock masses that have no effect.
+    pub advice: Advice,
     /// Number of blocks that a fluid flows around; they come first. After them come the solids and walls, which the
     /// cells of a lattice represent already.
     pub in_fluid: usize,
@@ -35,6 +37,8 @@ pub struct DiscardedPieces {
     pub mass: String,
     /// Number of pieces.
     pub pieces: usize,
+    /// How many of them are narrower than the aperture of the joints.
+    pub narrow: usize,
     /// Their volume, as a fraction of that of the mass.
     pub share: f64,
 }
@@ -64,7 +68,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
         ..Setup::default()
     };
     setup.period = period(scene);
-    let mut left_out = Vec::new();
+    let (mut left_out, mut advice) = (Vec::new(), Advice::new());
     for (index, block) in scene.blocks.iter().enumerate() {
         let first = setup.blocks.len();
         setup.blocks.extend(rows::blocks(scene, index, block)?);
@@ -76,7 +80,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
         );
     }
     for (index, mass) in scene.rock_masses.iter().enumerate() {
-        let (blocks, lost) = masses::blocks(scene, index, mass)?;
+        let (blocks, lost) = masses::blocks(scene, index, mass, &mut advice)?;
         setup.blocks.extend(blocks);
         if lost.pieces > 0 {
             left_out.push(lost);
@@ -96,6 +100,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
     Ok(BlockSetup {
         setup,
         left_out,
+        advice,
         in_fluid,
     })
 }

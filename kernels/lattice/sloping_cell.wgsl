@@ -18,6 +18,9 @@ struct SlopingCell {
     u: vec3<f32>,
     // Of a face of a block: its entry in outer_cells.
     outer: u32,
+    // The m of sloping_exchange.wgsl, times the share of the law, and the sum that the populations get by it.
+    slip: vec3<f32>,
+    given: f32,
 }
 
 const NO_SLOPE = 0xffffu;

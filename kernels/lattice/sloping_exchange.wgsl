@@ -1,20 +1,60 @@
 // Asmuth et al. 2021, Phys. Fluids 33:105111: friction of a face at an angle to the grid. The full cells at such a face have
 // reflected the populations that arrived. Those that now leave to the fluid get w c.m more, m along the face: the tangential momentum
 // that arrived leaves again, less the stress of the law of the wall times the area of the face in the column of the cell. The
-// surface of the full cells is a staircase; with m, the velocity of the solid along the face crosses its steps.
+// surface of the full cells is a staircase; with m, the velocity of the solid along the face crosses its steps. What one cell
+// takes in, others give off: leaks proportional to the amounts make the sum zero. The momentum that arrived is that without the
+// pressure, of which single steps of the staircase have a part along the face.
 // needs sloping_cell, incoming, weights, $mirror
 
-// Changes the populations that leave a full cell of a solid with this velocity; returns what the fluid gains.
-fn exchange_at_slope(face: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f32) -> vec3<f32> {
+// Sums of what the cells at such faces give off, and of its amounts: each in units of 2^-24 by the multiples of 1024 and the rest, so
+// that the order does not matter.
+var<workgroup> slip_sums: array<atomic<i32>, 4>;
+
+fn clear_slip_sums(local: u32) {
+    if (local < 4u) {
+        atomicStore(&slip_sums[local], 0);
+    }
+    workgroupBarrier();
+}
+
+fn add_to_slip_sums(given: f32) {
+    let units = i32(round(clamp(given, -1.0, 1.0) * 16777216.0));
+    atomicAdd(&slip_sums[0u], units >> 10u);
+    atomicAdd(&slip_sums[1u], units & 1023);
+    atomicAdd(&slip_sums[2u], abs(units) >> 10u);
+    atomicAdd(&slip_sums[3u], abs(units) & 1023);
+}
+
+// What is given off over its amount, from these sums over all cells.
+fn slip_balance(given: i32, rest: i32, amount: i32, rest_of_amount: i32) -> f32 {
+    let sum = 1024.0 * f32(given) + f32(rest);
+    return sum / max(1024.0 * f32(amount) + f32(rest_of_amount), 1.0);
+}
+
+// Sum of the weights of some directions, one bit each.
+fn weight_of(directions: u32) -> f32 {
+    return weight(1u) * f32(countOneBits(directions & 0x7eu))
+        + weight(7u) * f32(countOneBits(directions & 0x7ff80u))
+        + weight(19u) * f32(countOneBits(directions & 0x7f80000u));
+}
+
+// Changes the face to that with the m of a full cell of a solid with this velocity, and with the sum that its populations get.
+fn slip_at_slope(at: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f32) -> SlopingCell {
+    var face = at;
     let around = neighbourhood(cell);
-    // Momentum of the populations that leave to the fluid, and the sum of w c c.
+    // Sum and momentum of the populations that leave to the fluid, and the sums of w c and w c c.
+    var sum = 0.0;
     var leaving = vec3(0.0);
+    var outward = vec3(0.0);
     var columns: array<vec3<f32>, 3>;
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((face.open & (1u << q)) != 0u) {
             let c = vec3<f32>(C[q]);
             let word = returned(around, face.slope, q);
-            leaving += read_scalar(word.direction, word.scalar) * c;
+            let f = read_scalar(word.direction, word.scalar);
+            sum += f;
+            leaving += f * c;
+            outward += weight(q) * c;
             columns[0] += (weight(q) * f32(C[q].x)) * c;
             columns[1] += (weight(q) * f32(C[q].y)) * c;
             columns[2] += (weight(q) * f32(C[q].z)) * c;
@@ -22,18 +62,33 @@ fn exchange_at_slope(face: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, sh
     }
     let weights = mat3x3(columns[0], columns[1], columns[2]);
     // Relative to the solid.
+    sum -= 3.0 * dot(outward, velocity);
     leaving -= 3.0 * (weights * velocity);
+    // Least squares of f = w (excess + c.slip), slip along the face.
+    let mean = outward / weight_of(face.open);
+    let spread = mat3x3(columns[0] - outward.x * mean, columns[1] - outward.y * mean, columns[2] - outward.z * mean);
+    let slip = tangential_solution(spread, face.normal, leaving - sum * mean);
+    let excess = (sum - dot(outward, slip)) / weight_of(face.open);
+    leaving -= excess * outward;
     let speed = length(face.u);
     let is_top = (face.slope & SLOPE_TOP) != 0u;
     let area = select(0.0, 1.0 / abs(face.normal[(face.slope & 7u) / 2u]), is_top);
     let change = -2.0 * leaving - area * face.friction * face.friction / max(speed, 1e-30) * face.u;
     let m = tangential_solution(weights, face.normal, change);
     // Limits the velocity m/6 to twice the velocity that the law has read.
-    let limited = share * min(1.0, 12.0 * speed / max(length(m), 1e-30)) * m;
+    face.slip = share * min(1.0, 12.0 * speed / max(length(m), 1e-30)) * m;
+    face.given = dot(outward, face.slip);
+    return face;
+}
+
+// Changes the populations that leave a full cell by its m; returns the momentum that the fluid gains.
+fn exchange_at_slope(face: SlopingCell, cell: vec3<u32>, balance: f32) -> vec3<f32> {
+    let around = neighbourhood(cell);
+    let leak = balance * abs(face.given) / weight_of(face.open);
     var gained = vec3(0.0);
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((face.open & (1u << q)) != 0u) {
-            let more = weight(q) * dot(vec3<f32>(C[q]), limited);
+            let more = weight(q) * (dot(vec3<f32>(C[q]), face.slip) - leak);
             let word = returned(around, face.slope, q);
             write_scalar(word.direction, word.scalar, read_scalar(word.direction, word.scalar) + more);
             gained += more * vec3<f32>(C[q]);

@@ -33,6 +33,9 @@ fn slope_law(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
+    if (invocation(group, groups, local) < 4u) {
+        atomicStore(&outer_cells.slip_sums[local], 0);
+    }
     let count = atomicLoad(&outer_cells.slopes);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
         apply_at_slope(n, outer_cell(slopes[n].outer));
@@ -88,22 +91,50 @@ fn set_viscosity_above(face: SlopingCell, cell: vec3<u32>, friction: f32) {
 
 // Runs after the collision of the bricks that blocks reach; its parity is that of the next step.
 @compute @workgroup_size(64)
+fn sloping_slip(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    clear_slip_sums(local);
+    let count = atomicLoad(&outer_cells.slopes);
+    for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
+        let share = model_share(slopes[n].friction);
+        if (slopes[n].open != 0u && share > 0.0) {
+            let here = outer_cell(slopes[n].outer);
+            slopes[n] = slip_at_slope(slopes[n], here.cell, velocity_of_block(here.solid), share);
+            add_to_slip_sums(slopes[n].given);
+        }
+    }
+    workgroupBarrier();
+    if (local < 4u) {
+        atomicAdd(&outer_cells.slip_sums[local], atomicLoad(&slip_sums[local]));
+    }
+}
+
+// Runs after it.
+@compute @workgroup_size(64)
 fn sloping_friction(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
+    let balance = slip_balance(
+        atomicLoad(&outer_cells.slip_sums[0u]),
+        atomicLoad(&outer_cells.slip_sums[1u]),
+        atomicLoad(&outer_cells.slip_sums[2u]),
+        atomicLoad(&outer_cells.slip_sums[3u]),
+    );
     let count = atomicLoad(&outer_cells.slopes);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
-        let share = model_share(slopes[n].friction);
-        if (slopes[n].open != 0u && share > 0.0) {
-            apply_sloping_friction(slopes[n], outer_cell(slopes[n].outer), share);
+        if (slopes[n].open != 0u && model_share(slopes[n].friction) > 0.0) {
+            apply_sloping_friction(slopes[n], outer_cell(slopes[n].outer), balance);
         }
     }
 }
 
-fn apply_sloping_friction(face: SlopingCell, here: OuterCell, share: f32) {
-    let gained = exchange_at_slope(face, here.cell, velocity_of_block(here.solid), share);
+fn apply_sloping_friction(face: SlopingCell, here: OuterCell, balance: f32) {
+    let gained = exchange_at_slope(face, here.cell, balance);
     // The block loses what the fluid gains.
     let parts = decode_sum(read_psm(PLANE_SUM, here.solid.slot, here.solid.place)).fraction;
     for (var a = 0u; a < 3u; a++) { // unroll

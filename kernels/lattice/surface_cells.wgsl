@@ -6,10 +6,12 @@
 // grid-aligned face x-, x+, y-, y+, z-, z+ where the law acts, see CUT for a cell that such a face cuts, SLIDES, FULL_AT_SLOPE, 0 elsewhere.
 @group(0) @binding(39) var<storage, read_write> face_codes: array<atomic<u32>>;
 
-// Cells at the surfaces of blocks, by their number in these bricks (number_of), and the number of sloping faces among these.
+// Cells at the surfaces of blocks, by their number in these bricks (number_of), the number of sloping faces among these, and the sums
+// of sloping_exchange.wgsl over them.
 struct OuterCells {
     count: atomic<u32>,
     slopes: atomic<u32>,
+    slip_sums: array<atomic<i32>, 4>,
     cells: array<u32>,
 }
 

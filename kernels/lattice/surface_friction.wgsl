@@ -7,6 +7,8 @@
 // Of each cell the scalar of surface_fractions that takes its share of the law, or NO_PLACE.
 @group(0) @binding(47) var<storage, read> share_places: array<u32>;
 @group(0) @binding(38) var<storage, read_write> surface_fractions: array<f32>;
+// The sums of sloping_exchange.wgsl over all cells.
+@group(0) @binding(43) var<storage, read_write> all_slip_sums: array<atomic<i32>, 4>;
 
 const NO_PLACE = 0xffffffffu;
 
@@ -23,6 +25,9 @@ fn surface_law(
     @builtin(local_invocation_index) local: u32,
 ) {
     let n = invocation(group, groups, local);
+    if (n < 4u) {
+        atomicStore(&all_slip_sums[n], 0);
+    }
     if (n < arrayLength(&wall_cells)) {
         slopes[n] = law_at_slope(slopes[n], vec3(0.0), wall_cells[n].roughness);
     }
@@ -67,7 +72,28 @@ fn surface_viscosity(
     }
 }
 
-// Applies the stress to the populations that the full cells have returned.
+// Runs before surface_friction, which applies the stress to the populations that the full cells have returned.
+@compute @workgroup_size(64)
+fn surface_slip(
+    @builtin(workgroup_id) group: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) local: u32,
+) {
+    clear_slip_sums(local);
+    let n = invocation(group, groups, local);
+    if (n < arrayLength(&wall_cells)) {
+        let share = share_at(n);
+        if (slopes[n].open != 0u && share > 0.0) {
+            slopes[n] = slip_at_slope(slopes[n], padded_cell(wall_cells[n].cell), vec3(0.0), share);
+            add_to_slip_sums(slopes[n].given);
+        }
+    }
+    workgroupBarrier();
+    if (local < 4u) {
+        atomicAdd(&all_slip_sums[local], atomicLoad(&slip_sums[local]));
+    }
+}
+
 @compute @workgroup_size(64)
 fn surface_friction(
     @builtin(workgroup_id) group: vec3<u32>,
@@ -78,9 +104,14 @@ fn surface_friction(
     if (n >= arrayLength(&wall_cells)) {
         return;
     }
+    let balance = slip_balance(
+        atomicLoad(&all_slip_sums[0u]),
+        atomicLoad(&all_slip_sums[1u]),
+        atomicLoad(&all_slip_sums[2u]),
+        atomicLoad(&all_slip_sums[3u]),
+    );
     let face = slopes[n];
-    let share = share_at(n);
-    if (face.open != 0u && share > 0.0) {
-        _ = exchange_at_slope(face, padded_cell(wall_cells[n].cell), vec3(0.0), share);
+    if (face.open != 0u && share_at(n) > 0.0) {
+        _ = exchange_at_slope(face, padded_cell(wall_cells[n].cell), balance);
     }
 }

@@ -58,7 +58,7 @@ pub(super) struct BlockPasses {
     /// Friction of these faces, in even and odd steps.
     pub friction: [Vec<Dispatch>; 2],
     /// Friction of sloping faces, after the collision in even and odd steps.
-    pub sloping: [Option<Dispatch>; 2],
+    pub sloping: [Vec<Dispatch>; 2],
     /// Removal of the eddy viscosity at the end of a step.
     pub end: Vec<Dispatch>,
     /// List of the cells that may be under such a face, and the sloping faces there.
@@ -127,7 +127,7 @@ impl Lattice {
         }
         let of_model = self.bricks_of_model().zip(self.streams.face_codes());
         if let Some(((list, cells), codes)) = of_model {
-            let outer = zeroed(device, "outer cells of blocks", 8 + 4 * u64::from(cells));
+            let outer = zeroed(device, "outer cells of blocks", 24 + 4 * u64::from(cells));
             let buffers = [("face_codes", codes), ("outer_cells", &outer)];
             let pass = |entry, odd, invocations| {
                 let kernel = ("block_friction", entry);
@@ -156,7 +156,9 @@ impl Lattice {
                     friction.push(pass("slope_law", odd)?);
                 }
                 for (next, friction) in [1, 0].into_iter().zip(&mut passes.sloping) {
-                    *friction = Some(pass("sloping_friction", next)?);
+                    for entry in ["sloping_slip", "sloping_friction"] {
+                        friction.push(pass(entry, next)?);
+                    }
                 }
                 passes.end.push(pass("clear_above_slopes", 0)?);
                 passes.lists.push(slopes);

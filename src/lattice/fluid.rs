@@ -176,7 +176,7 @@ impl Lattice {
         }
         self.faces_found = true;
         self.streams.record(pass, self.parity(), true);
-        if let Some(dispatch) = &self.of_blocks.sloping[self.parity()] {
+        for dispatch in &self.of_blocks.sloping[self.parity()] {
             dispatch.record(pass);
         }
     }

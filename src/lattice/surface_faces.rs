@@ -49,6 +49,9 @@ pub(super) struct SlopingCell {
     pub u: [f32; 3],
     /// Of a face of a block: its entry among the outer cells of blocks.
     pub outer: u32,
+    /// What the populations that leave get, w c·slip, and the sum of this.
+    pub slip: [f32; 3],
+    pub given: f32,
 }
 
 /// A cell of fluid near the surface, as `surface_friction.wgsl` has it.
@@ -157,6 +160,16 @@ impl Solids<'_> {
         own.fold(0, |bits, (face, _)| bits | 1 << face)
     }
 
+    /// Whether a cell lies at a pressure or outflow face. Solids fill whole cells there, and such faces extrapolate the populations of
+    /// the cells in front of them.
+    fn is_at_outlet(&self, cell: [u32; 3]) -> bool {
+        let mut faces = self.survey.setup.faces.as_flattened().iter().enumerate();
+        faces.any(|(face, kind)| {
+            let border = [0, self.grid().cells[face / 2] - 1][face % 2];
+            matches!(kind, Face::Pressure { .. } | Face::Outflow { .. }) && cell[face / 2] == border
+        })
+    }
+
     /// Height of the solid above the centre of a cell, along `out`, where its column is solid, then cut, then fluid.
     fn height(&self, cell: [u32; 3], axis: usize, out: i32) -> Option<f64> {
         let mut height = self.fraction(cell) - 0.5;
@@ -198,6 +211,9 @@ impl Solids<'_> {
         let mut less = DVec3::ZERO;
         for (q, &c) in C.iter().enumerate().skip(1) {
             let other = self.mirrored(cell, c)?;
+            if self.is_at_outlet(other) {
+                return None;
+            }
             let fraction = self.fraction(other);
             let is_plane = self.plane.contains(&(self.grid().index(other) as u32));
             if fraction < 1.0 && !is_plane {
@@ -383,6 +399,8 @@ mod tests {
             ("friction", offset_of!(SlopingCell, friction)),
             ("u", offset_of!(SlopingCell, u)),
             ("outer", offset_of!(SlopingCell, outer)),
+            ("slip", offset_of!(SlopingCell, slip)),
+            ("given", offset_of!(SlopingCell, given)),
         ];
         check::<SlopingCell>(&module, "SlopingCell", &sloping).unwrap();
         let near = [

@@ -31,6 +31,7 @@ pub(super) struct SurfacePart {
     /// Of each cell the scalar of the fractions that takes its share.
     places: wgpu::Buffer,
     near: wgpu::Buffer,
+    slip_sums: wgpu::Buffer,
     /// Which of them had a block nearby in the last step; only with blocks.
     blocks: Option<wgpu::Buffer>,
     count: u32,
@@ -79,6 +80,7 @@ impl SurfacePart {
             slopes: filled(device, "sloping surfaces", slopes, usage),
             places: list("places of shares", bytemuck::cast_slice(&places)),
             near: list("cells near surfaces", bytemuck::cast_slice(near)),
+            slip_sums: zeroed(device, "sums at surfaces", 16),
             blocks: setup
                 .solid_operator
                 .map(|_| zeroed(device, "surfaces with blocks", 4 * faces.cells.len() as u64)),
@@ -89,7 +91,13 @@ impl SurfacePart {
 
     /// Bytes of its buffers.
     pub fn bytes(&self) -> u64 {
-        let kept = [&self.cells, &self.slopes, &self.places, &self.near];
+        let kept = [
+            &self.cells,
+            &self.slopes,
+            &self.places,
+            &self.near,
+            &self.slip_sums,
+        ];
         kept.into_iter()
             .chain(&self.blocks)
             .map(wgpu::Buffer::size)
@@ -112,6 +120,7 @@ impl Lattice {
             ("slopes", &part.slopes),
             ("share_places", &part.places),
             ("near_cells", &part.near),
+            ("all_slip_sums", &part.slip_sums),
         ];
         buffers.extend(part.blocks.as_ref().map(|blocks| ("wall_blocks", blocks)));
         if file == "mark_blocks" {
@@ -148,8 +157,10 @@ impl Lattice {
     pub(super) fn surface_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
         let mut passes = self.surface_laws(device, odd)?;
         if let Some(part) = &self.buffers.sloping_surface {
-            let kernel = ("surface_friction", "surface_friction");
-            passes.push(self.surface_pass(device, part, kernel, odd, part.count)?);
+            for entry in ["surface_slip", "surface_friction"] {
+                let kernel = ("surface_friction", entry);
+                passes.push(self.surface_pass(device, part, kernel, odd, part.count)?);
+            }
         }
         Ok(passes)
     }

@@ -68,6 +68,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
         &[
             "find_slopes",
             "slope_law",
+            "sloping_slip",
             "sloping_friction",
             "clear_above_slopes",
         ],
@@ -89,6 +90,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
             "surface_law",
             "surface_shares",
             "surface_viscosity",
+            "surface_slip",
             "surface_friction",
         ],
         &[
@@ -96,6 +98,7 @@ pub const SINGLE: &[(&str, &[&str], &[&str])] = &[
             "slopes",
             "share_places",
             "surface_fractions",
+            "all_slip_sums",
             "near_cells",
             "near_wall_viscosity",
             "velocity_before_0",

@@ -147,7 +147,13 @@ impl Twin {
         let force = force_on(self.weight(cell, tau), &solid, part, &change);
         let lost = self.lost_to_walls(cell);
         let nu_t = (tau - self.config.tau_eff(0.0)) / 3.0;
-        let gain = self.sloping_gain(cell, &self.collided_in(cell, nu_t));
+        let gain = match self.share_at_slope(cell) {
+            0.0 => [0.0; Q],
+            _ => {
+                let balance = self.slip_balance(&self.nu_t());
+                self.sloping_gain(cell, &self.collided_in(cell, nu_t), balance)
+            }
+        };
         let gained = |a: usize| (0..Q).map(|i| gain[i] * f64::from(C[i][a])).sum::<f64>();
         [0, 1, 2].map(|a| {
             let at_walls = lost[a] * part / solid.shares.max(1.0);
@@ -229,20 +235,21 @@ impl Twin {
     /// Populations after the collision of the coming step.
     pub fn collided(&self) -> Vec<[f64; Q]> {
         let nu_t = self.nu_t();
+        let balance = self.slip_balance(&nu_t);
         self.cells()
             .map(|cell| {
                 if self.domain.solid[cell] {
                     return [0.0; Q];
                 }
                 let found = self.collided_in(cell, nu_t[cell]);
-                let gain = self.sloping_gain(cell, &found);
+                let gain = self.sloping_gain(cell, &found, balance);
                 std::array::from_fn(|i| found[i] + gain[i])
             })
             .collect()
     }
 
     /// Populations of a cell after the collision.
-    fn collided_in(&self, cell: usize, nu_t: f64) -> [f64; Q] {
+    pub(super) fn collided_in(&self, cell: usize, nu_t: f64) -> [f64; Q] {
         let (f, force) = (&self.f[cell], self.force_at(cell));
         let fluid = collide(&self.config, f, force, nu_t, self.odd_class(cell));
         self.saturate(cell, &fluid, self.config.tau_eff(nu_t))

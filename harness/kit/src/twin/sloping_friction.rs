@@ -255,10 +255,22 @@ impl Twin {
 
     /// What the populations that leave a full cell to the fluid gain: the tangential momentum Σ f* c over the open directions,
     /// relative to the block, becomes that which arrived, its opposite, less the stress of the law.
-    pub(super) fn sloping_gain(&self, cell: usize, leaving: &[f64; Q]) -> [f64; Q] {
+    pub(super) fn sloping_gain(&self, cell: usize, leaving: &[f64; Q], balance: f64) -> [f64; Q] {
         let solid = self.solid_in(cell);
         let found = self.sloping(cell).filter(|_| solid.fraction >= FULL);
-        found.map_or([0.0; Q], |face| face.gain(solid.velocity, leaving))
+        found.map_or([0.0; Q], |face| {
+            face.gain(face.slip(solid.velocity, leaving), balance)
+        })
+    }
+
+    /// What all full cells give off, over its amount, by the eddy viscosity of each cell.
+    pub(super) fn slip_balance(&self, nu_t: &[f64]) -> f64 {
+        let full = (0..self.f.len()).filter(|&cell| self.solid_in(cell).fraction >= FULL);
+        balance(full.filter_map(|cell| {
+            let face = self.sloping(cell)?;
+            let leaving = self.collided_in(cell, nu_t[cell]);
+            Some(face.given(face.slip(self.solid_in(cell).velocity, &leaving)))
+        }))
     }
 
     /// Raises the eddy viscosity above such faces to that of the mixing length.
@@ -379,7 +391,7 @@ impl Twin {
 
     /// Applies the stress to the populations that full cells have returned.
     pub(super) fn exchange_at_surface(&mut self) {
-        for (cell, face) in self.faces_at_rest(true) {
+        let faces = self.faces_at_rest(true).into_iter().map(|(cell, face)| {
             let open = face.open.iter();
             let returned: Vec<_> = open
                 .filter_map(|&q| Some((q, self.mirrored(cell, q)?)))
@@ -388,7 +400,13 @@ impl Twin {
             for &(q, (other, reflected)) in &returned {
                 leaving[q] = self.f[other][reflected];
             }
-            let gain = face.gain([0.0; 3], &leaving);
+            let slip = face.slip([0.0; 3], &leaving);
+            (face, returned, slip)
+        });
+        let faces: Vec<_> = faces.collect();
+        let balance = balance(faces.iter().map(|(face, _, slip)| face.given(*slip)));
+        for (face, returned, slip) in faces {
+            let gain = face.gain(slip, balance);
             for (q, (other, reflected)) in returned {
                 self.f[other][reflected] += gain[q];
             }
@@ -445,6 +463,27 @@ impl Twin {
     }
 }
 
+/// The sum of what cells give off over that of its amounts.
+fn balance(given: impl Iterator<Item = f64>) -> f64 {
+    let [sum, amount] = given.fold([0.0; 2], |[sum, amount], one| {
+        [sum + one, amount + one.abs()]
+    });
+    if amount > 0.0 { sum / amount } else { 0.0 }
+}
+
+/// The solution of a symmetric 2 × 2 system by its eigenvectors, with λ/(λ² + 1e-10) for 1/λ.
+fn solved([a, b, d]: [f64; 3], wanted: [f64; 2]) -> [f64; 2] {
+    let angle = 0.5 * (2.0 * b).atan2(a - d);
+    let mut solved = [0.0; 2];
+    for [x, y] in [[angle.cos(), angle.sin()], [-angle.sin(), angle.cos()]] {
+        let lambda = a * x * x + 2.0 * b * x * y + d * y * y;
+        let part = (x * wanted[0] + y * wanted[1]) * lambda / (lambda * lambda + 1e-10);
+        solved[0] += part * x;
+        solved[1] += part * y;
+    }
+    solved
+}
+
 impl Sloping {
     /// Eddy viscosity at a distance from the face by the mixing length.
     fn viscosity_at(&self, y: f64) -> f64 {
@@ -454,10 +493,23 @@ impl Sloping {
         taper * 0.4 * y * self.friction * self.share
     }
 
-    /// What the populations that leave a full cell of a solid with this velocity gain.
-    fn gain(&self, velocity: [f64; 3], leaving: &[f64; Q]) -> [f64; Q] {
-        if self.share == 0.0 {
-            return [0.0; Q];
+    /// What the populations that leave a full cell gain by its m.
+    fn gain(&self, m: [f64; 3], balance: f64) -> [f64; Q] {
+        let all: f64 = self.open.iter().map(|&q| W[q]).sum();
+        let leak = balance * self.given(m).abs() / all;
+        let gain = |q: usize| W[q] * (dot(c(q), m) - leak);
+        std::array::from_fn(|q| if self.open.contains(&q) { gain(q) } else { 0.0 })
+    }
+
+    /// What a full cell gives off by its m, without the balance.
+    fn given(&self, m: [f64; 3]) -> f64 {
+        self.open.iter().map(|&q| W[q] * dot(c(q), m)).sum()
+    }
+
+    /// m of a full cell of a solid with this velocity, times the share of the law.
+    fn slip(&self, velocity: [f64; 3], leaving: &[f64; Q]) -> [f64; 3] {
+        if self.share == 0.0 || self.open.is_empty() {
+            return [0.0; 3];
         }
         let along = {
             let n = self.normal;
@@ -476,30 +528,29 @@ impl Sloping {
             0.0
         };
         let stress = area * self.friction.powi(2) / norm(self.u).max(1e-30);
-        let wanted = along.map(|t| {
-            let relative =
-                |q: &usize| (leaving[*q] - 3.0 * W[*q] * dot(c(*q), velocity)) * dot(c(*q), t);
-            -2.0 * self.open.iter().map(relative).sum::<f64>() - stress * dot(self.u, t)
+        let sum = |of: &dyn Fn(usize) -> f64| self.open.iter().map(|&q| of(q)).sum::<f64>();
+        let relative = |q: usize| leaving[q] - 3.0 * W[q] * dot(c(q), velocity);
+        let over = |q: usize, t: usize| dot(c(q), along[t]);
+        // The pressure: f = w (excess + c·slip), where the differences to the means over the open directions give the slip.
+        let all = sum(&|q| W[q]);
+        let mean_of = |of: &dyn Fn(usize) -> f64| sum(of) / all;
+        let mean = [0, 1].map(|t| mean_of(&|q| W[q] * over(q, t)));
+        let mean_excess = mean_of(&relative);
+        let apart = |q: usize, t: usize| over(q, t) - mean[t];
+        let covariance = |s: usize, t: usize| sum(&|q| W[q] * apart(q, s) * apart(q, t));
+        let slip = solved(
+            [covariance(0, 0), covariance(0, 1), covariance(1, 1)],
+            [0, 1].map(|t| sum(&|q| relative(q) * apart(q, t))),
+        );
+        let excess = mean_excess - mean[0] * slip[0] - mean[1] * slip[1];
+        let wanted = [0, 1].map(|t| {
+            let arrived = sum(&|q| (relative(q) - W[q] * excess) * over(q, t));
+            -2.0 * arrived - stress * dot(self.u, along[t])
         });
-        let element = |a: [f64; 3], b: [f64; 3]| -> f64 {
-            let each = |q: &usize| W[*q] * dot(c(*q), a) * dot(c(*q), b);
-            self.open.iter().map(each).sum()
-        };
-        let (a, d) = (element(along[0], along[0]), element(along[1], along[1]));
-        let b = element(along[0], along[1]);
-        // By the eigenvectors of the symmetric matrix; 1/λ is λ/(λ² + 1e-10).
-        let angle = 0.5 * (2.0 * b).atan2(a - d);
-        let axes = [[angle.cos(), angle.sin()], [-angle.sin(), angle.cos()]];
-        let mut solved = [0.0; 2];
-        for [x, y] in axes {
-            let lambda = a * x * x + 2.0 * b * x * y + d * y * y;
-            let part = (x * wanted[0] + y * wanted[1]) * lambda / (lambda * lambda + 1e-10);
-            solved[0] += part * x;
-            solved[1] += part * y;
-        }
-        let m = [0, 1, 2].map(|i| solved[0] * along[0][i] + solved[1] * along[1][i]);
+        let element = |s: usize, t: usize| sum(&|q| W[q] * over(q, s) * over(q, t));
+        let found = solved([element(0, 0), element(0, 1), element(1, 1)], wanted);
+        let m = [0, 1, 2].map(|i| found[0] * along[0][i] + found[1] * along[1][i]);
         let limit = (12.0 * norm(self.u) / norm(m).max(1e-30)).min(1.0);
-        let gain = |q: usize| W[q] * dot(c(q), m) * self.share * limit;
-        std::array::from_fn(|q| if self.open.contains(&q) { gain(q) } else { 0.0 })
+        m.map(|m| m * self.share * limit)
     }
 }

@@ -218,6 +218,7 @@ impl Subject {
     pub fn force_error(&self, bricks: &[u32]) -> f64 {
         let (grid, found) = (self.lattice.grid(), self.psm_planes());
         let nu_t = self.twin.nu_t();
+        let balance = self.twin.slip_balance(&nu_t);
         let mut worst: f64 = 0.0;
         for (slot, local, lane, cell) in places(grid, bricks) {
             let at = |plane| f64::from(found[place(grid, slot, plane, local, lane)]);
@@ -242,7 +243,7 @@ impl Subject {
             let differs = solid.shared || self.setup.wall_model.is_none();
             let own = |a| 0.01 * f64::from(u8::from(differs)) * noise(3 * cell + a);
             let velocity = [0, 1, 2].map(|a| solid.velocity[a] + own(a));
-            let force = self.twin.force_on(cell, part, velocity, tau);
+            let force = self.twin.force_on(cell, part, velocity, (tau, balance));
             worst = worst.max((part * at(4) - weight * part / solid.shares).abs());
             for a in 0..3 {
                 let load = -part * (at(5) * velocity[a] + at(6 + a));

@@ -151,6 +151,7 @@ fn solid_of(boxes: &[Cuboid], centres: &[DVec3], weight: SolidWeight) -> Solid {
 fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<Load> {
     let twin = &subject.twin;
     let nu_t = twin.nu_t();
+    let balance = twin.slip_balance(&nu_t);
     let mut loads = vec![Load::default(); boxes.len()];
     for cell in (0..twin.domain.cell_count()).filter(|&cell| !twin.domain.solid[cell]) {
         let solid = twin.solid_at(cell);
@@ -168,7 +169,8 @@ fn exact_loads(subject: &Subject, boxes: &[Cuboid], periodic: [bool; 3]) -> Vec<
                 let velocity = own.lerp(solid.velocity.into(), tight).to_array();
                 let weight = solid.weight(&twin.config, tau);
                 let [effective, _] = block.effective(x, subject.setup.weight());
-                let force = DVec3::from_array(twin.force_on(cell, effective, velocity, tau));
+                let force =
+                    DVec3::from_array(twin.force_on(cell, effective, velocity, (tau, balance)));
                 let held = weight * effective / solid.shares;
                 load.force += force;
                 load.moment += DMat3::from_cols(force * r.x, force * r.y, force * r.z);

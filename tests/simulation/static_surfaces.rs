@@ -1,7 +1,7 @@
 //! Static solids at the exact position of their surface, next to blocks; blocks on terrain.
 
 use kit::{Rig, assert_near};
-use riprap::scene::Scene;
+use riprap::{scene::Scene, simulation::probe::Gauge};
 use std::{fs, path::PathBuf};
 
 /// Flow through a periodic channel over a bed 0.24 m high and past a block just above it, so that both share cells.
@@ -87,4 +87,75 @@ fn a_block_slides_over_terrain_as_over_a_plane() {
     assert!(expected > 0.5);
     assert_near(pose.velocity.x, expected, 0.005 * expected);
     assert!(pose.deformation_rate.abs_diff_eq(glam::DMat3::ZERO, 1e-3));
+}
+
+/// The steps of the staircase under a sloping face take in and give off fluid as it slides over them, as much at any pressure.
+#[test]
+fn friction_at_sloping_faces_conserves_mass() {
+    let rig = Rig::new();
+    for round in [
+        "[[solids]]\nkind = \"sphere\"\ncenter = [1.2, 1.2, 0.9]\nradius = 0.55\nsurface = \"exact\"",
+        "[[materials]]\nname = \"rock\"\ndensity = 2650\nnormal_stiffness = 1e6\nfriction = 30\n\
+         [[blocks]]\nkind = \"box\"\nsize = [1.1, 1.1, 1.1]\nposition = [1.2, 1.2, 0.9]\nmotion = \"fixed\"\n\
+         rotation = { axis = [0, 0, 1], angle = 26.565 }",
+    ] {
+        let scene = kit::scene::read(&format!(
+            r#"
+            domain = {{ size = [2.4, 2.4, 1.8], cell = 0.05 }}
+            fluid = {{ viscosity = 1e-5 }}
+            numerics = {{ velocity_scale = 1, eddy_viscosity = "wale", wall_model = "reichardt" }}
+            initial = {{ velocity = [0.3, 0.1, 0.6], pressure = "5000" }}
+            run.steps = 60
+            {round}
+            "#
+        ));
+        let mut simulation = rig.simulation(&scene.unwrap()).unwrap();
+        let before = rig.wait(simulation.totals()).unwrap().mass;
+        rig.wait(simulation.advance(60)).unwrap();
+        let after = rig.wait(simulation.totals()).unwrap().mass;
+        assert_near(after / before, 1.0, 1e-6);
+    }
+}
+
+/// A bed that cuts cells up to a pressure face: the pressure wave of the start leaves, and the stream passes.
+#[test]
+fn a_stream_over_an_exact_bed_leaves_by_an_outlet() {
+    let rig = Rig::new();
+    let scene = kit::scene::read(
+        r#"
+        domain = { size = [1.6, 0.2, 0.8], cell = 0.05 }
+        fluid = { viscosity = 1e-5 }
+        numerics = { velocity_scale = 1, eddy_viscosity = "wale", wall_model = "reichardt" }
+        run.duration = 6
+        [boundaries]
+        x_min = { kind = "velocity", velocity = ["0.6*min(1, max(0, z - 0.2)/0.05)", 0, 0] }
+        x_max = { kind = "pressure" }
+        y_min = { kind = "free_slip" }
+        y_max = { kind = "free_slip" }
+        z_min = { kind = "wall" }
+        z_max = { kind = "free_slip" }
+        [[solids]]
+        kind = "box"
+        min = [0, 0, 0]
+        max = [1.6, 0.2, 0.22]
+        surface = "exact"
+        [[probes]]
+        name = "outlet"
+        kind = "box"
+        min = [1.5, 0, 0.25]
+        max = [1.6, 0.2, 0.8]
+        fields = ["pressure", "velocity"]
+        "#,
+    )
+    .unwrap();
+    let mut simulation = rig.simulation(&scene).unwrap();
+    let steps = scene.run.count(simulation.time_step());
+    rig.wait(simulation.advance(steps)).unwrap();
+    let gauge = Gauge::new(&scene, simulation.solid(), &scene.probes[0]).unwrap();
+    let read = simulation.read(gauge.fields(), gauge.cells());
+    let row = gauge.rows(&rig.wait(read).unwrap()).unwrap().remove(0);
+    let mean = |name: &str| row[gauge.columns().iter().position(|c| c == name).unwrap()];
+    // A dynamic pressure is 180 Pa.
+    assert_near(mean("pressure_mean"), 0.0, 180.0);
+    assert_near(mean("velocity_x_mean"), 0.58, 0.03);
 }

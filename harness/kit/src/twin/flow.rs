@@ -141,19 +141,20 @@ impl Twin {
     }
 
     /// Force on a block with the share `part` of a cell that moves there with `velocity`.
-    pub fn force_on(&self, cell: usize, part: f64, velocity: [f64; 3], tau: f64) -> [f64; 3] {
+    /// `balance`: that of [`Self::slip_balance`].
+    pub fn force_on(
+        &self,
+        cell: usize,
+        part: f64,
+        velocity: [f64; 3],
+        (tau, balance): (f64, f64),
+    ) -> [f64; 3] {
         let solid = self.solid_at(cell);
         let change = self.solid_change(cell, velocity, tau);
         let force = force_on(self.weight(cell, tau), &solid, part, &change);
         let lost = self.lost_to_walls(cell);
         let nu_t = (tau - self.config.tau_eff(0.0)) / 3.0;
-        let gain = match self.share_at_slope(cell) {
-            0.0 => [0.0; Q],
-            _ => {
-                let balance = self.slip_balance(&self.nu_t());
-                self.sloping_gain(cell, &self.collided_in(cell, nu_t), balance)
-            }
-        };
+        let gain = self.sloping_gain(cell, &self.collided_in(cell, nu_t), balance);
         let gained = |a: usize| (0..Q).map(|i| gain[i] * f64::from(C[i][a])).sum::<f64>();
         [0, 1, 2].map(|a| {
             let at_walls = lost[a] * part / solid.shares.max(1.0);

@@ -264,7 +264,7 @@ impl Twin {
     }
 
     /// What all full cells give off, over its amount, by the eddy viscosity of each cell.
-    pub(super) fn slip_balance(&self, nu_t: &[f64]) -> f64 {
+    pub fn slip_balance(&self, nu_t: &[f64]) -> f64 {
         let full = (0..self.f.len()).filter(|&cell| self.solid_in(cell).fraction >= FULL);
         balance(full.filter_map(|cell| {
             let face = self.sloping(cell)?;

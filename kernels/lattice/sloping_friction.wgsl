@@ -33,9 +33,6 @@ fn slope_law(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
-    if (invocation(group, groups, local) < 4u) {
-        atomicStore(&outer_cells.slip_sums[local], 0);
-    }
     let count = atomicLoad(&outer_cells.slopes);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
         apply_at_slope(n, outer_cell(slopes[n].outer));
@@ -63,6 +60,9 @@ fn clear_above_slopes(
     @builtin(num_workgroups) groups: vec3<u32>,
     @builtin(local_invocation_index) local: u32,
 ) {
+    if (invocation(group, groups, local) < 4u) {
+        atomicStore(&outer_cells.slip_sums[local], 0);
+    }
     let count = atomicLoad(&outer_cells.slopes);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
         set_viscosity_above(slopes[n], outer_cell(slopes[n].outer).cell, 0.0);

@@ -34,7 +34,8 @@ pub struct Material {
     #[serde(default)]
     pub tensile_strength: f64,
     /// Damping ratio ζ of a contact's normal motion, no unit, from 0 to below 1. Default 0.1, at
-    /// which a block rebounds with 0.74 of its speed.
+    /// which a block rebounds with 0.74 of its speed. At 0, edges and corners that collide gain energy as well as lose it, as their
+    /// springs conserve it only at a constant area of contact: `contact_loss` is the sum.
     #[serde(default = "Material::usual_damping")]
     pub damping: f64,
     /// Young's modulus E of the rock itself, Pa, required for deformable blocks; the stiffer and smaller

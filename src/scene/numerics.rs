@@ -39,8 +39,8 @@ pub struct Numerics {
     /// Mach number of the lattice at the velocity scale, from which the time step follows:
     /// errors of compressibility grow with its square. Default 0.1, unless `time_step` is given.
     pub mach: Option<f64>,
-    /// Largest expected speed, m/s. Default: the largest one in the boundaries and in the
-    /// initial state at the time 0.
+    /// Largest expected speed, m/s. Default: the largest one on the boundaries, during a run with a `duration`, otherwise at the time 0,
+    /// and in the initial state.
     pub velocity_scale: Option<f64>,
     /// Magic parameter Λ next to bounce-back walls, no unit. Default 3/16, for which a wall of a channel lies half a
     /// cell beyond the last cell centre at any viscosity.

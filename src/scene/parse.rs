@@ -25,7 +25,11 @@ impl Scene {
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let text = std::fs::read_to_string(path).map_err(|e| {
-            Error::file(path, format!("cannot read the scene: {e}; check the path"))
+            let remedy = match e.kind() {
+                std::io::ErrorKind::InvalidData => "save it as UTF-8",
+                _ => "check the path",
+            };
+            Error::file(path, format!("cannot read the scene: {e}; {remedy}"))
         })?;
         let dir = path.parent().unwrap_or(Path::new(""));
         Self::from_toml(&text, dir, &path.display().to_string())

@@ -121,18 +121,24 @@ impl Scene {
     /// Smallest and largest pressure prescribed on faces during the run, including the reference pressure, 0, Pa. A formula is
     /// sampled at some times.
     pub(super) fn face_pressures(&self) -> [f64; 2] {
-        const TIMES: u32 = 100;
-        let end = self.run.duration.unwrap_or(0.0);
         let held = |(_, boundary): (Face, &Boundary)| match boundary {
             Boundary::Pressure { pressure, .. } => {
-                let times = if pressure.uses_time() { TIMES } else { 0 };
-                let time = move |n| end * f64::from(n) / f64::from(TIMES);
+                let times = self.times_of(pressure.uses_time());
                 let pressure = pressure.clone();
-                Some((0..=times).map(move |n| pressure.eval(0.0, 0.0, 0.0, time(n))))
+                Some(times.map(move |t| pressure.eval(0.0, 0.0, 0.0, t)))
             }
             _ => None,
         };
         range([0.0; 2], self.boundaries.iter().filter_map(held).flatten())
+    }
+
+    /// Times from 0 to the duration of the run at which a formula is sampled, s; 0 alone if it does not use the time, or if the run has a
+    /// number of steps instead of a duration.
+    fn times_of(&self, uses_time: bool) -> impl Iterator<Item = f64> + use<> {
+        const TIMES: u32 = 100;
+        let end = self.run.duration.filter(|_| uses_time);
+        let last = end.map_or(0, |_| TIMES);
+        (0..=last).map(move |n| end.unwrap_or(0.0) * f64::from(n) / f64::from(TIMES))
     }
 
     /// Pressure prescribed on `face` at the time `t` in s, Pa; `None` if the face prescribes none.
@@ -214,7 +220,8 @@ impl Scene {
         })
     }
 
-    /// Largest speed on the boundaries and in the fluid at the time 0 and due to a bulk velocity, m/s.
+    /// Largest speed on the boundaries during the run, in the fluid at the time 0 and due to a bulk velocity, m/s. A formula is sampled
+    /// at some times.
     ///
     /// # Errors
     /// If a formula is not finite somewhere.
@@ -225,13 +232,19 @@ impl Scene {
         for (face, boundary) in self.boundaries.iter() {
             match boundary {
                 Boundary::Wall { velocity, .. } => largest = largest.max(length(*velocity)),
-                Boundary::Velocity { turbulence, .. } => {
-                    let velocities = self.face_velocity(face, 0.0)?;
-                    let fastest = velocities.iter().copied().map(length).fold(0.0, f64::max);
+                Boundary::Velocity {
+                    velocity,
+                    turbulence,
+                    ..
+                } => {
                     // Three standard deviations.
                     let eddies = turbulence.map_or(0.0, |t| 3.0 * t.intensity);
-                    let mean = mean_normal_velocity(face, &velocities).abs();
-                    largest = largest.max(fastest + eddies * mean);
+                    for t in self.times_of(velocity.iter().any(Formula::uses_time)) {
+                        let velocities = self.face_velocity(face, t)?;
+                        let fastest = velocities.iter().copied().map(length).fold(0.0, f64::max);
+                        let mean = mean_normal_velocity(face, &velocities).abs();
+                        largest = largest.max(fastest + eddies * mean);
+                    }
                 }
                 _ => {}
             }
@@ -262,8 +275,8 @@ impl Scene {
         }
         Err(Error::scene(
             "numerics",
-            "no time step follows from this scene: nothing in its boundaries and initial state \
-             moves at t = 0; give `velocity_scale` (the largest speed expected, m/s) or \
+            "no time step follows from this scene: nothing moves on its boundaries or in its initial \
+             state; give `velocity_scale` (the largest speed expected, m/s) or \
              `time_step` (s)",
         ))
     }

@@ -166,6 +166,16 @@ impl Scene {
                 );
             }
         }
+        for probe in &self.probes {
+            if let Some(every) = probe.every.filter(|every| *every > length * (1.0 + ROUNDED)) {
+                warn(
+                    format!("probes.{}.every", probe.name),
+                    format!(
+                        "{every} s is longer than the run of {length:.6} s: it measures at the start and the end only"
+                    ),
+                );
+            }
+        }
         let materials = self.materials.iter();
         let materials =
             materials.map(|one| (format!("materials.{}", one.name), Some(one.friction)));

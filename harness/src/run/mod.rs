@@ -44,6 +44,7 @@ use anyhow::Result;
 use riprap::{Error, scene::Scene};
 use runner::Runner;
 use std::{
+    fs::{File, TryLockError},
     path::{Path, PathBuf},
     sync::atomic::AtomicBool,
 };
@@ -130,6 +131,7 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
         let message = format!("cannot make this folder: {error}; choose another one with `--out`");
         Error::file(&folder, message)
     })?;
+    let _locked = locked(&folder)?;
     let text = std::fs::read_to_string(&args.scene).unwrap_or_default();
     let restart = args.restart.as_deref();
     let mut runner = Runner::new(&mut run, &folder, last, restart, &text)?;
@@ -150,6 +152,21 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
         eprint!("{}", throughput::phase_table(&run.simulation.phases()));
     }
     Ok(summary)
+}
+
+/// The output folder, locked until the end of a run; `None` where the system locks no folders.
+fn locked(folder: &Path) -> Result<Option<File>> {
+    let Ok(opened) = File::open(folder) else {
+        return Ok(None);
+    };
+    match opened.try_lock() {
+        Ok(()) => Ok(Some(opened)),
+        Err(TryLockError::WouldBlock) => {
+            let message = "another run writes to this folder; choose another one with `--out`";
+            Err(Error::file(folder, message).into())
+        }
+        Err(TryLockError::Error(_)) => Ok(None),
+    }
 }
 
 /// The output folder of a run.

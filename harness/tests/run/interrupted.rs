@@ -59,6 +59,21 @@ fn riprap(folder: &Path, steps: u64, out: &str) -> Command {
 }
 
 #[test]
+fn a_folder_is_for_one_run_at_a_time() {
+    let folder = folder("locked");
+    let out = folder.join("out");
+    fs::create_dir_all(&out).unwrap();
+    let other = fs::File::open(&out).unwrap();
+    other.lock().unwrap();
+    let refused = riprap(&folder, 1, "out").output().unwrap();
+    assert!(!refused.status.success());
+    assert_contains(said(&refused), &["another run", "--out"]);
+    drop(other);
+    let output = riprap(&folder, 1, "out").output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+}
+
+#[test]
 fn a_run_that_is_killed_goes_on_to_the_same_bits() {
     let folder = folder("killed");
     // Enough steps that it does not end by itself.

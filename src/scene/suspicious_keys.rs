@@ -167,7 +167,10 @@ impl Scene {
             }
         }
         for probe in &self.probes {
-            if let Some(every) = probe.every.filter(|every| *every > length * (1.0 + ROUNDED)) {
+            if let Some(every) = probe
+                .every
+                .filter(|every| *every > length * (1.0 + ROUNDED))
+            {
                 warn(
                     format!("probes.{}.every", probe.name),
                     format!(

@@ -17,10 +17,7 @@ pub use water::WaterReport;
 
 use crate::{adapters::Adapter, gpu, print, run::SceneRun};
 use anyhow::Result;
-use riprap::{
-    scene::{Probe, ProbePlace, Scene},
-    simulation::Kind,
-};
+use riprap::{scene::Scene, simulation::Kind};
 use serde::Serialize;
 use std::path::PathBuf;
 use trial::Trial;
@@ -46,12 +43,6 @@ pub fn run(args: &Args) -> Result<()> {
     let scene = Scene::from_file(&args.scene)?;
     let name = args.adapter.as_deref();
     let mut run = SceneRun::open(&scene, &args.scene, name)?;
-    let of_fluid = |probe: &&Probe| !matches!(probe.place, ProbePlace::Block { .. });
-    if run.simulation.kind() != Kind::Particles {
-        for probe in scene.probes.iter().filter(of_fluid) {
-            run.gauge(probe)?;
-        }
-    }
     // An error that ends the trial is returned after the report.
     let ended = match run.simulation.kind() {
         Kind::Rock => {

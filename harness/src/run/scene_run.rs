@@ -143,6 +143,7 @@ impl SceneRun {
             last_water: None,
             max_water_speed: 0.0,
         };
+        run.check_probes()?;
         if kind == Kind::Particles {
             let water = run.water()?;
             run.water_start = run.simulation.ledger(&water)?;

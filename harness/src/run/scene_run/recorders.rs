@@ -81,11 +81,21 @@ impl SceneRun {
         }
     }
 
+    /// Checks that each probe of a lattice has a place in it.
+    pub(super) fn check_probes(&self) -> Result<()> {
+        if self.simulation.kind() == Kind::Particles {
+            return Ok(());
+        }
+        let of_fluid = |probe: &&Probe| !matches!(probe.place, ProbePlace::Block { .. });
+        let mut probes = self.scene().probes.iter().filter(of_fluid);
+        probes.try_for_each(|probe| self.gauge(probe).map(drop))
+    }
+
     /// The cells of the lattice that a probe measures.
     ///
     /// # Errors
     /// If there is no lattice, or the probe has no place in it.
-    pub fn gauge(&self, probe: &Probe) -> Result<Gauge> {
+    fn gauge(&self, probe: &Probe) -> Result<Gauge> {
         if self.simulation.kind() != Kind::Lattice {
             let message = "measures a fluid, and there is none";
             return Err(Error::scene(format!("probes.{}", probe.name), message));

@@ -19,6 +19,7 @@ pub mod rates;
 mod sloping_friction;
 pub mod solid;
 pub mod statistics;
+mod surface_friction;
 pub mod wale;
 pub mod wall_model;
 

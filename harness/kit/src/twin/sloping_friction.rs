@@ -1,9 +1,8 @@
-//! A wall law on faces of blocks, and of exact surfaces at rest, at an angle to the grid.
+//! A wall law on faces at an angle to the grid: their geometry, the exchange, and the faces of blocks.
 
 use super::lattice::{C, Q, W, direction};
 use super::wall_model::{norm, share};
 use super::{Solid, SolidOperator, Twin};
-use std::collections::{HashMap, HashSet};
 
 /// Solid fraction from which a cell counts as full.
 const FULL: f64 = 0.999;
@@ -23,31 +22,31 @@ const TAPER: [f64; 6] = [1.0, 0.75, 0.4, 0.15, 0.0, 0.0];
 
 /// A face near a cell.
 #[derive(Clone, Debug)]
-struct Sloping {
-    normal: [f64; 3],
+pub(super) struct Sloping {
+    pub normal: [f64; 3],
     /// Axis nearest to the normal.
-    axis: usize,
+    pub axis: usize,
     /// −1 or 1: the direction of the fluid along it.
-    out: i32,
+    pub out: i32,
     /// Whether the cell is the uppermost full one of its column.
-    top: bool,
+    pub top: bool,
     /// Directions to cells that are not full.
-    open: Vec<usize>,
+    pub open: Vec<usize>,
     /// Cells of the column above with their distances from the face; the law reads the velocity of the last one.
-    above: Vec<(usize, f64)>,
+    pub above: Vec<(usize, f64)>,
     /// Tangential velocity there relative to the block, and the friction velocity.
-    u: [f64; 3],
-    friction: f64,
-    share: f64,
+    pub u: [f64; 3],
+    pub friction: f64,
+    pub share: f64,
 }
 
 /// Solids as columns of cells see them: the fraction in a cell, the fraction of a full one, the cell next to one along an axis, if a
 /// column may pass through it, and the cell or mirror image in a direction.
-struct Columns<'a> {
-    fraction: &'a dyn Fn(usize) -> f64,
-    full: f64,
-    step: &'a dyn Fn(usize, usize, i32) -> Option<usize>,
-    around: &'a dyn Fn(usize, [i32; 3]) -> Option<usize>,
+pub(super) struct Columns<'a> {
+    pub fraction: &'a dyn Fn(usize) -> f64,
+    pub full: f64,
+    pub step: &'a dyn Fn(usize, usize, i32) -> Option<usize>,
+    pub around: &'a dyn Fn(usize, [i32; 3]) -> Option<usize>,
 }
 
 impl Columns<'_> {
@@ -74,13 +73,13 @@ impl Columns<'_> {
     }
 }
 
-fn along(axis: usize, step: i32) -> [i32; 3] {
+pub(super) fn along(axis: usize, step: i32) -> [i32; 3] {
     let mut c = [0; 3];
     c[axis] = step;
     c
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     (0..3).map(|i| a[i] * b[i]).sum()
 }
 
@@ -91,12 +90,12 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     })
 }
 
-fn c(q: usize) -> [f64; 3] {
+pub(super) fn c(q: usize) -> [f64; 3] {
     C[q].map(f64::from)
 }
 
 impl Twin {
-    fn solid_in(&self, cell: usize) -> Solid {
+    pub(super) fn solid_in(&self, cell: usize) -> Solid {
         let own = self.blocks.as_ref().map(|(_, cells)| cells[cell]);
         own.filter(|own| own.shares > 0.0).unwrap_or_default()
     }
@@ -137,7 +136,7 @@ impl Twin {
 
     /// The face near a cell. `columns`: those of the fluid and of the solid; `open`: whether a cell that is not full counts as open;
     /// `solid`: its velocity and roughness.
-    fn face_near(
+    pub(super) fn face_near(
         &self,
         cell: usize,
         [columns, heights]: [&Columns<'_>; 2],
@@ -286,185 +285,8 @@ impl Twin {
     }
 }
 
-// Exact surfaces of solids at rest.
-impl Twin {
-    /// Fraction of a cell that solids at rest fill.
-    fn at_rest(&self, cell: usize) -> f64 {
-        match self.domain.solid[cell] {
-            true => 1.0,
-            false => {
-                let model = self.wall_model.as_ref();
-                let fraction = model.and_then(|model| model.surface.get(cell));
-                fraction.copied().unwrap_or(0.0)
-            }
-        }
-    }
-
-    /// The face of an exact surface at a cell that it cuts, or that is full and touches such a cell; no law acts with a block in the
-    /// five cells of the column from this one on.
-    fn face_at_rest(
-        &self,
-        cell: usize,
-        plane: &HashSet<usize>,
-        blocks: &[bool],
-    ) -> Option<Sloping> {
-        let step = |at: usize, axis: usize, out: i32| self.inside(at, along(axis, out));
-        let around = |at: usize, c: [i32; 3]| Some(self.mirrored(at, direction(c))?.0);
-        let columns = Columns {
-            fraction: &|at| self.at_rest(at),
-            full: 1.0,
-            step: &step,
-            around: &around,
-        };
-        let is_cut = |at: usize| (self.at_rest(at) % 1.0) > 0.0;
-        let near_cut = C.iter().filter_map(|&c| around(cell, c)).any(is_cut);
-        let is_full = self.domain.solid[cell] && near_cut;
-        if !is_cut(cell) && !is_full {
-            return None;
-        }
-        let model = self.wall_model.as_ref()?;
-        let roughness = model.solid_roughness.get(cell).copied().unwrap_or(0.0);
-        let open = |at: usize| !plane.contains(&at);
-        let solid = ([0.0; 3], f64::from(roughness));
-        let mut face = self.face_near(cell, [&columns; 2], &open, solid)?;
-        let mut at = Some(cell);
-        for _ in 0..5 {
-            if at.is_some_and(|at| blocks.get(at) == Some(&true)) {
-                face.share = 0.0;
-            }
-            at = step(at?, face.axis, face.out);
-        }
-        Some(face)
-    }
-
-    /// Whether such faces may exist, with the fluid cells at plane walls, which have a model of their own.
-    fn plane_cells(&self) -> Option<HashSet<usize>> {
-        let model = self.wall_model.as_ref().filter(|model| model.on_surfaces)?;
-        Some(model.plane_cells(&self.domain).collect())
-    }
-
-    /// All such faces that a filter selects, by the blocks in the previous step.
-    fn faces_at_rest(&self, full: bool) -> Vec<(usize, Sloping)> {
-        let Some(plane) = self.plane_cells() else {
-            return Vec::new();
-        };
-        let blocks = &self.blocks_before;
-        let cells = (0..self.f.len()).filter(|&cell| self.domain.solid[cell] || !full);
-        cells
-            .filter_map(|cell| Some((cell, self.face_at_rest(cell, &plane, blocks)?)))
-            .collect()
-    }
-
-    /// The uppermost full cells of the columns at such faces, with the stress over the density and the share of the law.
-    pub fn surface_faces(&self) -> Vec<(usize, [f64; 3], f64)> {
-        let tops = self.faces_at_rest(true).into_iter();
-        tops.filter(|(_, face)| face.top)
-            .map(|(cell, face)| {
-                let part = face.friction.powi(2) / norm(face.u).max(1e-30);
-                (cell, face.u.map(|u| part * u), face.share)
-            })
-            .collect()
-    }
-
-    /// Sets the eddy viscosity near such faces where no wall has set it: by the nearest face.
-    pub(super) fn add_above_surface(&self, near_wall: &mut [f64]) {
-        let mut nearest: HashMap<usize, (f64, f64)> = HashMap::new();
-        for (_, face) in self.faces_at_rest(true) {
-            for &(cell, y) in face.above.iter().filter(|_| face.top) {
-                if y < 4.5 && (y > 1.0 || (y > 0.0 && self.at_rest(cell) == 0.0)) {
-                    let found = (y, face.viscosity_at(y));
-                    let kept = nearest.entry(cell).or_insert(found);
-                    if y < kept.0 {
-                        *kept = found;
-                    }
-                }
-            }
-        }
-        let model = self.wall_model.as_ref();
-        let walls = model.map(|model| model.cells_near_walls(&self.domain));
-        for (cell, (_, viscosity)) in nearest {
-            if walls.as_ref().is_some_and(|walls| !walls.contains(&cell)) {
-                near_wall[cell] = viscosity;
-            }
-        }
-    }
-
-    /// Applies the stress to the populations that full cells have returned.
-    pub(super) fn exchange_at_surface(&mut self) {
-        let faces = self.faces_at_rest(true).into_iter().map(|(cell, face)| {
-            let open = face.open.iter();
-            let returned: Vec<_> = open
-                .filter_map(|&q| Some((q, self.mirrored(cell, q)?)))
-                .collect();
-            let mut leaving = [0.0; Q];
-            for &(q, (other, reflected)) in &returned {
-                leaving[q] = self.f[other][reflected];
-            }
-            let slip = face.slip([0.0; 3], &leaving);
-            (face, returned, slip)
-        });
-        let faces: Vec<_> = faces.collect();
-        let balance = balance(faces.iter().map(|(face, _, slip)| face.given(*slip)));
-        for (face, returned, slip) in faces {
-            let gain = face.gain(slip, balance);
-            for (q, (other, reflected)) in returned {
-                self.f[other][reflected] += gain[q];
-            }
-        }
-    }
-
-    /// The velocity of the solid for a cell without block that such a face cuts.
-    pub(super) fn velocity_at_surface(&self, cell: usize) -> [f64; 3] {
-        let face = || {
-            let blocks = self.blocks.as_ref().map(|(_, cells)| cells);
-            let blocks: Vec<bool> = blocks?.iter().map(|cell| cell.shares > 0.0).collect();
-            self.face_at_rest(cell, &self.plane_cells()?, &blocks)
-        };
-        let is_cut = self.at_rest(cell) > 0.0 && !self.domain.solid[cell];
-        let Some(face) = is_cut.then(face).flatten() else {
-            return [0.0; 3];
-        };
-        let f = &self.f[cell];
-        let rho = 1.0 + f.iter().sum::<f64>();
-        let u = [0, 1, 2].map(|a| (0..Q).map(|q| c(q)[a] * f[q]).sum::<f64>() / rho);
-        let away = dot(u, face.normal);
-        [0, 1, 2].map(|a| face.share * (u[a] - away * face.normal[a]))
-    }
-
-    /// The cell in a direction, or that of which it is the mirror image beyond a free-slip face, and the reflected direction; none
-    /// beyond other faces.
-    fn mirrored(&self, cell: usize, q: usize) -> Option<(usize, usize)> {
-        let (to, crossed) = self.domain.walk(self.domain.position(cell), C[q]);
-        let mut reflected = C[q];
-        for (axis, face) in crossed.into_iter().enumerate() {
-            if let Some(face) = face {
-                if !matches!(self.domain.faces[face], super::domain::Face::FreeSlip) {
-                    return None;
-                }
-                reflected[axis] = -reflected[axis];
-            }
-        }
-        Some((self.domain.index(to), direction(reflected)))
-    }
-
-    /// The cell next to one, across periodic faces too; none outside the domain.
-    fn inside(&self, cell: usize, c: [i32; 3]) -> Option<usize> {
-        let (at, n) = (self.domain.position(cell), self.domain.cells);
-        let mut to = at;
-        for a in 0..3 {
-            let moved = at[a] as i32 + c[a];
-            let leaves = !(0..n[a] as i32).contains(&moved);
-            if leaves && !matches!(self.domain.faces[2 * a], super::domain::Face::Periodic) {
-                return None;
-            }
-            to[a] = moved.rem_euclid(n[a] as i32) as usize;
-        }
-        Some(self.domain.index(to))
-    }
-}
-
 /// The sum of what cells give off over that of its amounts.
-fn balance(given: impl Iterator<Item = f64>) -> f64 {
+pub(super) fn balance(given: impl Iterator<Item = f64>) -> f64 {
     let [sum, amount] = given.fold([0.0; 2], |[sum, amount], one| {
         [sum + one, amount + one.abs()]
     });
@@ -486,7 +308,7 @@ fn solved([a, b, d]: [f64; 3], wanted: [f64; 2]) -> [f64; 2] {
 
 impl Sloping {
     /// Eddy viscosity at a distance from the face by the mixing length.
-    fn viscosity_at(&self, y: f64) -> f64 {
+    pub(super) fn viscosity_at(&self, y: f64) -> f64 {
         let at = (y - 0.5).clamp(0.0, 4.0);
         let n = at as usize;
         let taper = TAPER[n] + at.fract() * (TAPER[n + 1] - TAPER[n]);
@@ -494,7 +316,7 @@ impl Sloping {
     }
 
     /// What the populations that leave a full cell gain by its m.
-    fn gain(&self, m: [f64; 3], balance: f64) -> [f64; Q] {
+    pub(super) fn gain(&self, m: [f64; 3], balance: f64) -> [f64; Q] {
         let all: f64 = self.open.iter().map(|&q| W[q]).sum();
         let leak = balance * self.given(m).abs() / all;
         let gain = |q: usize| W[q] * (dot(c(q), m) - leak);
@@ -502,12 +324,12 @@ impl Sloping {
     }
 
     /// What a full cell gives off by its m, without the balance.
-    fn given(&self, m: [f64; 3]) -> f64 {
+    pub(super) fn given(&self, m: [f64; 3]) -> f64 {
         self.open.iter().map(|&q| W[q] * dot(c(q), m)).sum()
     }
 
     /// m of a full cell of a solid with this velocity, times the share of the law.
-    fn slip(&self, velocity: [f64; 3], leaving: &[f64; Q]) -> [f64; 3] {
+    pub(super) fn slip(&self, velocity: [f64; 3], leaving: &[f64; Q]) -> [f64; 3] {
         if self.share == 0.0 || self.open.is_empty() {
             return [0.0; 3];
         }

@@ -5,11 +5,13 @@ use glam::DVec3;
 use std::{collections::HashMap, io::Cursor, path::Path};
 
 pub(super) fn read_stl(mut bytes: Vec<u8>) -> Result<Soup, String> {
-    if is_binary_stl(&bytes) {
+    let (bytes, origin) = if is_binary_stl(&bytes) {
         // Some programs begin binary headers with the word that marks text files.
         bytes[..HEADER].fill(0);
-    }
-    let (bytes, origin) = recentred(bytes, "vertex");
+        (bytes, DVec3::ZERO)
+    } else {
+        recentred(bytes, "vertex")
+    };
     let mesh = stl_io::read_stl(&mut Cursor::new(bytes))
         .map_err(|e| format!("not a valid STL file: {e}; export it again"))?;
     let vertex = |v: &stl_io::Vertex| origin + DVec3::from(v.0.map(f64::from));

@@ -47,7 +47,9 @@ impl Snapshot {
             size_of_val(&*self.films),
             size_of_val(&*self.strains),
         ];
-        (size_of::<Self>() + lists.iter().sum::<usize>()) as u64
+        let bonds = self.contacts.iter().flat_map(|contact| &contact.bond);
+        let bonds = bonds.map(|bond| size_of_val(&**bond) + size_of_val(&*bond.corners));
+        (size_of::<Self>() + lists.iter().sum::<usize>() + bonds.sum::<usize>()) as u64
     }
 }
 

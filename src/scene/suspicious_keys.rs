@@ -165,12 +165,8 @@ impl Scene {
                     ),
                 );
             }
-        }
-        for probe in &self.probes {
-            if let Some(every) = probe
-                .every
-                .filter(|every| *every > length * (1.0 + ROUNDED))
-            {
+            let long = |every: &f64| *every > length * (1.0 + ROUNDED);
+            if let Some(every) = probe.every.filter(long) {
                 warn(
                     format!("probes.{}.every", probe.name),
                     format!(

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use kit::{assert_near, assert_relative};
 use riprap::{
     geometry::Load,
-    rock::{Block, Motion},
+    rock::{Block, Motion, law::Joint},
 };
 
 #[test]
@@ -39,6 +39,34 @@ fn blocks_that_tumble_down_a_slope() {
         assert!(work > 1e-3 * fallen, "{name}: {work} J of {end:?}");
     }
     assert!(end.contact_loss.abs() < 0.05 * fallen, "{end:?}");
+}
+
+/// Without damping and friction the kinetic energy changes by what the springs of changing areas gain or lose.
+#[test]
+fn edges_that_collide_without_damping_gain_energy_or_lose_it() {
+    let mut signs = [false; 2];
+    for turn in 0..6 {
+        let tilt = DQuat::from_scaled_axis(DVec3::new(0.3, 0.5, 1.0) * f64::from(turn));
+        let mut block = Block::new("block", cuboid(1.0, 0.5, 0.7), DVec3::X * -1.2).rotated(tilt);
+        block.velocity = DVec3::X * 2.0;
+        let other = Block::new("other", cuboid(0.6, 0.6, 0.6), DVec3::new(0.0, 0.2, 0.1));
+        let mut setup = setup(
+            vec![block, other],
+            Joint {
+                damping: 0.0,
+                ..joint(1e9, 0.0)
+            },
+        );
+        (setup.gravity, setup.largest_overlap) = (DVec3::ZERO, 0.5);
+        let mut blocks = blocks(setup);
+        let start = blocks.ledger().kinetic;
+        run(&mut blocks, 1.5);
+        let end = blocks.ledger();
+        assert_eq!((end.elastic, end.dashpot, end.friction), (0.0, 0.0, 0.0));
+        assert_near(end.kinetic + end.contact_loss, start, 1e-4 * start);
+        signs[usize::from(end.contact_loss > 0.0)] |= end.contact_loss.abs() > 1e-3 * start;
+    }
+    assert_eq!(signs, [true; 2]);
 }
 
 #[test]

@@ -139,6 +139,21 @@ fn blocks_that_overlap_at_the_start_are_listed_and_can_be_relaxed() {
     assert!(blocks.largest_speed() < 1.0);
 }
 
+/// Their contact has no normal.
+#[test]
+fn blocks_with_the_same_centre_go_apart() {
+    let mut blocks = blocks(setup(
+        vec![cube("one", 0.5), cube("other", 0.5)],
+        joint(1e8, 30.0),
+    ));
+    pollster::block_on(blocks.relax(&mut HostBroadphase, 100)).unwrap();
+    let [one, other] = blocks.poses()[..] else {
+        panic!("two blocks")
+    };
+    let apart = one.centre - other.centre;
+    assert!(apart.is_finite() && apart.length() > 0.98, "{apart}");
+}
+
 #[test]
 fn a_step_too_long_for_the_stiffness_is_refused_with_the_bound() {
     let mut long = setup(vec![floor(), cube("cube", 0.499)], joint(1e8, 30.0));

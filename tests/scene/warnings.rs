@@ -83,6 +83,21 @@ fn water_that_given_pressures_compress_is_warned_of() {
     warned(duct(0.01, waves).0, &["boundaries"]);
 }
 
+/// An inlet that grows from 1 to 3 m/s within the run.
+#[test]
+fn the_time_step_follows_from_the_fastest_time_of_an_inlet() {
+    let scene = |end: &str| {
+        read(&format!(
+            "[domain]\nsize = [0.02, 0.01, 0.01]\ncell = 1e-3\n[run]\n{end}\n[fluid]\nviscosity = 1e-3\n[boundaries]\n\
+             x_min = {{ kind = \"velocity\", velocity = [\"1 + t\", 0, 0] }}\nx_max = {{ kind = \"pressure\" }}\n"
+        ))
+        .unwrap()
+    };
+    assert_eq!(scene("duration = 2").velocity_scale().unwrap(), 3.0);
+    // How long steps are is not known.
+    assert_eq!(scene("steps = 10").velocity_scale().unwrap(), 1.0);
+}
+
 /// τ − ½ = 3 ν Δt/Δx² is 0.019 and 0.021.
 #[test]
 fn one_magic_parameter_at_a_low_viscosity_is_warned_of() {

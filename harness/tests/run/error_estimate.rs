@@ -138,6 +138,18 @@ fn dry_blocks_are_compared_with_steps_twice_as_long() {
     assert!(position.difference > 0.0, "{estimate}");
 }
 
+/// Bonds shorten the usual step, once they are known.
+#[test]
+fn bonded_blocks_are_compared_with_steps_twice_as_long() {
+    let text = "[[materials]]\nname = \"rock\"\ndensity = 2500\nnormal_stiffness = 1e9\nfriction = 30\ncohesion = 1e6\n\
+                tensile_strength = 1e6\n[[solids]]\nkind = \"box\"\nmin = [-3, -3, -1]\nmax = [3, 3, 0]\n\
+                [[blocks]]\nname = \"stone\"\nkind = \"box\"\nsize = [1, 1, 0.5]\nposition = [0, 0, 0.25]\n\
+                repeat = { count = 3, step = [0, 0, 0.5] }\n[run]\nduration = 0.01\n\
+                [[probes]]\nname = \"stone\"\nkind = \"block\"\nblock = \"stone_1\"\nevery = 1e-3\n";
+    let estimate = estimated(&folder("estimate_bonds"), text);
+    assert_eq!(estimate.missing, None);
+}
+
 #[test]
 fn water_is_compared_with_particles_twice_as_far_apart() {
     let estimate = estimated(&folder("estimate_water"), &water());

@@ -104,12 +104,14 @@ impl Lattice {
         Ok(())
     }
 
-    /// Sets the velocity that the eddy viscosity of the coming step looks at.
+    /// Sets the velocity that the eddy viscosity of the coming step looks at: zero in static solids, as the step itself stores
+    /// it, which leaves out bricks of nothing else.
     pub(super) fn set_velocity_before(&self, queue: &wgpu::Queue, velocity: &[Vec<f32>; 3]) {
         let Some(before) = self.buffers.velocity_before(self.parity() == 1) else {
             return;
         };
-        let of = |n: usize| [0, 1, 2].map(|a: usize| velocity[a][n]);
+        let solid = |n: usize| self.setup.solid.get(n) == Some(&true);
+        let of = |n: usize| [0, 1, 2].map(|a: usize| if solid(n) { 0.0 } else { velocity[a][n] });
         let values = buffers::vectors(&self.grid, self.bindings.vectors, of);
         for (buffer, values) in before.iter().zip(values) {
             queue.write_buffer(buffer, 0, bytemuck::cast_slice(&values));

@@ -22,6 +22,11 @@ fn kernels_with_constants_of_zero_are_the_simpler_ones() {
 }
 
 #[test]
+fn the_same_run_gives_the_same_bits() {
+    assert_pass("kernels/repeatability");
+}
+
+#[test]
 fn eddy_viscosity_of_wale() {
     assert_pass("wale/[nps]*");
 }

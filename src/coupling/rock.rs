@@ -452,6 +452,7 @@ pub(super) async fn begin(
         blocks.set_pairs(pairs)?;
         blocks.step()?;
         blocks.restore(&start)?;
+        blocks.reset_peak_speed();
     }
     Ok(blocks)
 }

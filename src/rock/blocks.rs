@@ -193,6 +193,11 @@ impl Blocks {
         self.peak_speed
     }
 
+    /// Begins the search for the largest speed anew, after a trial step.
+    pub(crate) fn reset_peak_speed(&mut self) {
+        self.peak_speed = 0.0;
+    }
+
     /// Time step of [`Blocks::step`], and the longest one of [`Blocks::advance`], s.
     pub fn time_step(&self) -> f64 {
         self.time_step

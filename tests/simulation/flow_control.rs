@@ -146,6 +146,9 @@ fn a_sphere_bears_all_of_the_force() {
     let driven = 1000.0 * found.driving_acceleration * 1.6_f64.powi(3);
     assert_near(load.flow.force.y, driven, 0.01 * driven);
     assert!(driven > 0.0);
+    // Not even a trial step has moved the block.
+    let blocks = simulation.coupled().unwrap().blocks();
+    assert_eq!(blocks.peak_speed(), 0.0);
 }
 
 #[test]

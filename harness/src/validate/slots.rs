@@ -97,16 +97,20 @@ fn expected(setup: &Setup, bindings: u32, kind: BrickKind) -> Vec<String> {
     let mut names: Vec<_> = (0..bindings).map(|b| format!("populations_{b}")).collect();
     let wale = setup.wale.is_some();
     let flagged = matches!(kind, BrickKind::Flagged | BrickKind::Psm);
+    let friction_on_blocks =
+        kind == BrickKind::Psm && setup.wall_model.is_some() && setup.storage == Storage::F32;
     let optional = [
         (wale, "velocity_before_0"),
         (wale && setup.wale_interval == 1, "velocity_after_0"),
         (setup.keeps_eddy_viscosity(), "eddy_viscosity"),
         (setup.wall_model.is_some(), "near_wall_viscosity"),
+        (matches!(setup.force, Force::Constant(_)), "uniform_force"),
         (matches!(setup.force, Force::Field(_)), "force_field_0"),
         (setup.max_speed > 0.0, "guard_state"),
         (kind != BrickKind::All, "bricks"),
         (flagged, "flags"),
         (kind == BrickKind::Psm, "psm_planes_0"),
+        (friction_on_blocks, "face_codes"),
     ];
     let used = optional.into_iter().filter(|(used, _)| *used);
     names.extend(used.map(|(_, name)| name.to_owned()));

@@ -1,15 +1,14 @@
 //! The device of a validation, and a flow that runs on it.
 
 use super::record::{Trial, describe};
-use crate::{gpu, picture::Chart};
-use anyhow::Context;
+use crate::gpu;
 use kit::clock::{PATIENCE, Spent, Stopwatch};
 use riprap::{
     gpu::{kernel::submit_pass, readback::Readback},
     lattice::{Derived, Fault, Lattice, Observer, Populations, Setup, State, Sums, WallStress},
     wgpu,
 };
-use std::{path::PathBuf, time::Instant};
+use std::time::Instant;
 
 /// Cell updates in one submission: under a second on a CPU, several milliseconds on a GPU.
 pub const SUBMISSION: u64 = 20_000_000;
@@ -28,8 +27,6 @@ pub struct CaseContext {
     pub software: bool,
     /// Whether to run the long form of the cases.
     pub full: bool,
-    /// Folder for charts and tables of the results; `None` for none.
-    pub pictures: Option<PathBuf>,
 }
 
 impl CaseContext {
@@ -53,35 +50,7 @@ impl CaseContext {
             queue: queue.clone(),
             software: gpu::is_software(&device.adapter_info()),
             full: false,
-            pictures: None,
         }
-    }
-
-    /// Draws a chart into NAME.png if [`Self::pictures`] is set.
-    pub fn draw(&self, name: &str, chart: &Chart) -> anyhow::Result<()> {
-        match &self.pictures {
-            Some(folder) => chart.draw(&folder.join(name).with_extension("png")),
-            None => Ok(()),
-        }
-    }
-
-    /// Writes a table with column heads into NAME.csv if [`Self::pictures`] is set.
-    pub fn write_table<const N: usize>(
-        &self,
-        name: &str,
-        heads: [&str; N],
-        rows: &[[f64; N]],
-    ) -> anyhow::Result<()> {
-        let Some(folder) = &self.pictures else {
-            return Ok(());
-        };
-        let mut text = heads.join(",") + "\n";
-        for row in rows {
-            let numbers = row.map(|number| format!("{number:.6}"));
-            text += &(numbers.join(",") + "\n");
-        }
-        let path = folder.join(name).with_extension("csv");
-        std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))
     }
 
     /// A periodic box with the library's defaults and the lanes and bricks that suit the adapter.

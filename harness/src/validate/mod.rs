@@ -83,9 +83,6 @@ pub struct Args {
     /// Where to write the records as a JSON array
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-    /// Directory for pictures of the results
-    #[arg(long, value_name = "DIR")]
-    pub pictures: Option<PathBuf>,
     /// Part of the name of the adapter to use
     #[arg(long, value_name = "NAME")]
     pub adapter: Option<String>,
@@ -261,12 +258,7 @@ pub fn run(args: Args) -> anyhow::Result<bool> {
         print::print(&list(&cases))?;
         return Ok(true);
     }
-    let mut context = CaseContext::open(args.adapter.as_deref(), args.full)?;
-    if let Some(folder) = &args.pictures {
-        std::fs::create_dir_all(folder)
-            .with_context(|| format!("cannot make {}", folder.display()))?;
-    }
-    context.pictures = args.pictures;
+    let context = CaseContext::open(args.adapter.as_deref(), args.full)?;
     // Read before the run: cases may take hours, during which other commits are made.
     let machine = Machine::of(&context.device.adapter_info());
     let mut records = Vec::new();

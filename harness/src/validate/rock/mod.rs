@@ -8,17 +8,16 @@ pub mod rest;
 pub mod submerged;
 
 use super::Trial;
-use glam::{DQuat, DVec3};
+use glam::DVec3;
+pub use kit::rock::{DENSITY, joint, setup, slope};
 use riprap::{
     geometry::{Polyhedron, Shape},
-    rock::{Block, Blocks, EnergyLedger, Material, Setup, broadphase::HostBroadphase, law::Joint},
+    rock::{Block, Blocks, EnergyLedger, Setup, broadphase::HostBroadphase},
 };
 use std::{sync::Arc, time::Instant};
 
 /// Standard gravity, as [`Setup`] has it, m/s².
 pub const G: f64 = 9.81;
-/// Density of all blocks, kg/m³.
-pub const DENSITY: f64 = 2500.0;
 
 /// Running blocks, with the wall time spent on them.
 #[derive(Debug)]
@@ -101,32 +100,4 @@ pub fn cuboid(x: f64, y: f64, z: f64) -> anyhow::Result<Arc<Shape>> {
 /// A fixed floor of this width (m) whose top is at z = 0.
 pub fn floor(width: f64) -> anyhow::Result<Block> {
     Ok(Block::new("floor", cuboid(width, width, 1.0)?, DVec3::Z * -0.5).fixed())
-}
-
-/// A rotation about y that tilts x downwards by `degrees`.
-pub fn slope(degrees: f64) -> DQuat {
-    DQuat::from_rotation_y(degrees.to_radians())
-}
-
-/// A joint with the same stiffness in both directions, Pa/m, and the friction angle in degrees.
-pub fn joint(stiffness: f64, degrees: f64) -> Joint {
-    Joint {
-        normal_stiffness: stiffness,
-        shear_stiffness: stiffness,
-        friction_angle: degrees.to_radians(),
-        ..Joint::default()
-    }
-}
-
-/// Blocks of one material.
-pub fn setup(blocks: Vec<Block>, joint: Joint) -> Setup {
-    Setup {
-        blocks,
-        materials: vec![Material {
-            density: DENSITY,
-            joint,
-            elastic: None,
-        }],
-        ..Setup::default()
-    }
 }

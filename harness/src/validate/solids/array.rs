@@ -2,7 +2,6 @@
 //! velocity over fluid and spheres.
 
 use super::periodic_flow::{Body, Drag, PeriodicFlow, static_solids};
-use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{CaseContext, Method, Outcome, Record};
 use riprap::scene::{BlockShape, Rotation, Solid, SolidSurface};
 use std::f64::consts::PI;
@@ -217,7 +216,7 @@ pub fn comparison(context: &CaseContext) -> Outcome {
 /// 1300/ν at D = 40.
 const QUICK: f64 = 0.8;
 
-/// The error over resolution and relaxation time, as a table and a picture.
+/// The error over resolution and relaxation time.
 pub fn map(context: &CaseContext) -> Outcome {
     // D = 5, 9.9, 19.9, 39.7, and the smallest relaxation time for each.
     let slow = if context.software { QUICK } else { 0.0 };
@@ -225,41 +224,14 @@ pub fn map(context: &CaseContext) -> Outcome {
         true => &[(8, 0.0), (16, 0.0), (32, 0.0), (64, slow)],
         false => &[(8, 0.0), (16, 0.0), (32, QUICK)],
     };
-    let (mut records, mut curves, mut table) = (Vec::new(), Vec::new(), Vec::new());
+    let mut records = Vec::new();
     for &(edge, least) in grids {
-        let mut points = Vec::new();
         for tau in [0.55, 0.6, 0.8, 1.0, 1.5] {
-            if tau < least {
-                continue;
+            if tau >= least {
+                let array = Array::new(USUAL, edge, tau);
+                records.push(array.measure(context)?.record(&array, None));
             }
-            let array = Array::new(USUAL, edge, tau);
-            let found = array.measure(context)?;
-            records.push(found.record(&array, None));
-            let error = 100.0 * (found.ratio - 1.0);
-            points.push([tau, error]);
-            let steps = found.drag.trial.steps as f64;
-            table.push([
-                array.diameter(),
-                tau,
-                error,
-                steps,
-                found.drag.trial.seconds,
-            ]);
         }
-        curves.push(Curve {
-            name: format!("D = {:.1}", Array::new(USUAL, edge, 1.0).diameter()),
-            points,
-            mark: Mark::LinePoints,
-        });
     }
-    let chart = Chart::profile(
-        "Error of the drag of a cubic array of spheres, c = 0.125",
-        Measure::linear("relaxation time τ", ""),
-        Measure::linear("K / K(Zick & Homsy) − 1", "%"),
-        curves,
-    );
-    context.draw("solids_array", &chart)?;
-    let heads = ["diameter", "tau", "error_percent", "steps", "seconds"];
-    context.write_table("solids_array", heads, &table)?;
     Ok(records)
 }

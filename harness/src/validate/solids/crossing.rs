@@ -1,11 +1,8 @@
 //! A cube that crosses the grid: co-moving fluid must not be disturbed; in fluid at rest the drag fluctuates.
 
-use crate::{
-    picture::{Chart, Curve, Mark, Measure},
-    validate::{
-        CaseContext, Method, Outcome,
-        tank::{self, Tank, block, numbers, turn},
-    },
+use crate::validate::{
+    CaseContext, Method, Outcome,
+    tank::{self, Tank, block, numbers, turn},
 };
 use glam::DVec3;
 use riprap::{
@@ -95,10 +92,9 @@ pub fn swing(context: &CaseContext) -> Outcome {
         (true, true) => &[5, 10, 20],
         (false, _) => &[5, 10],
     };
-    let (mut records, mut curves, mut table) = (Vec::new(), Vec::new(), Vec::new());
+    let mut records = Vec::new();
     let methods = [Method::DEFAULT, Method::STANDARD_WEIGHT];
     for (&size, method) in sizes.iter().flat_map(|size| methods.map(|m| (size, m))) {
-        let mut points = Vec::new();
         for tau in [0.55, 0.6, 0.8, 1.0, 1.5] {
             let mut scene = tank::scene([4 * size + 12, 3 * size, 3 * size], tau)?;
             let edge = f64::from(size);
@@ -136,30 +132,7 @@ pub fn swing(context: &CaseContext) -> Outcome {
             records.push(trial.report(format!("largest jump of a step / mean drag, {of}"), jump));
             let quantity = format!("swing of what it feels in a crossing / mean drag, {of}");
             records.push(trial.report(quantity, swing));
-            points.push([tau, 100.0 * swing]);
-            let standard = f64::from(u8::from(method.name != Method::DEFAULT.name));
-            table.push([edge, tau, standard, 100.0 * jump, 100.0 * swing]);
         }
-        curves.push(Curve {
-            name: format!("D = {size}, {}", method.name),
-            points,
-            mark: Mark::LinePoints,
-        });
     }
-    let chart = Chart::profile(
-        "Swing of the drag of a cube as its faces cross cells",
-        Measure::linear("relaxation time τ", ""),
-        Measure::linear("swing / mean drag", "%"),
-        curves,
-    );
-    context.draw("solids_spike", &chart)?;
-    let heads = [
-        "edge",
-        "tau",
-        "standard_weight",
-        "jump_percent",
-        "swing_percent",
-    ];
-    context.write_table("solids_spike", heads, &table)?;
     Ok(records)
 }

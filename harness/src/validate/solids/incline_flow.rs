@@ -14,7 +14,6 @@
 //! In the limit of zero cell size the drag would be the added mass of the cube between bed and surface times the acceleration
 //! along the slope, until the flow separates at its edges.
 
-use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{
     CaseContext, Outcome, Record, Trial, fields,
     tank::{Tank, block},
@@ -54,7 +53,7 @@ struct History {
 /// Runs all grids, compares them, and extrapolates to zero cell size.
 pub fn run(context: &CaseContext) -> Outcome {
     let mut records = Vec::new();
-    let mut curves: Vec<Curve> = Vec::new();
+    let mut drags = Vec::new();
     let mut starts = Vec::new();
     let mut push = 0.0;
     for ratio in GRIDS {
@@ -66,13 +65,9 @@ pub fn run(context: &CaseContext) -> Outcome {
         let history = measure(context, &scene, depth)?;
         records.extend(history.records);
         starts.push(history.start);
-        curves.push(Curve {
-            name: format!("{:.0} cells an edge", EDGE / scene.domain.cell),
-            points: history.drag,
-            mark: Mark::Line,
-        });
+        drags.push(history.drag);
     }
-    let [coarse, fine] = [1, 2].map(|n| &curves[n].points);
+    let [coarse, fine] = [1, 2].map(|n: usize| &drags[n]);
     let pairs = || coarse.iter().zip(fine);
     let square: f64 = pairs().map(|([_, a], [_, b])| (a - b).powi(2)).sum();
     let whole: f64 = fine.iter().map(|[_, b]| b * b).sum();
@@ -98,13 +93,6 @@ pub fn run(context: &CaseContext) -> Outcome {
         records.push(trial.relative(quantity, without_cells, push, 5e-2));
     }
     records.extend(without_wall_model(context)?);
-    let chart = Chart::profile(
-        "Drag on a cube held in water that starts down a slope of 30°",
-        Measure::linear("time", "s"),
-        Measure::linear("force along the slope", "N"),
-        curves,
-    );
-    context.draw("solids_incline_flow", &chart)?;
     Ok(records)
 }
 

@@ -124,7 +124,7 @@ impl Body {
 }
 
 fn at(z: f64) -> Pose {
-    Pose::rigid(DVec3::Z * z, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+    Pose::at_rest(DVec3::Z * z, DQuat::IDENTITY)
 }
 
 /// Brenner 1961, Chem. Eng. Sci. 16:242: drag of a sphere that approaches a plane, over Stokes's, the gap in radii.

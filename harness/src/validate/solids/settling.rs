@@ -5,7 +5,6 @@
 //! Stokes' law and the walls of a square duct (Happel & Brenner 1983) allow 0.0355. The same tank with a twentieth of the weight,
 //! where inertia hardly matters, is a second reference for it.
 
-use crate::picture::{Chart, Curve, Mark, Measure};
 use crate::validate::{CaseContext, Method, Outcome, Record, Trial, tank::Tank};
 use riprap::scene::Scene;
 use std::path::Path;
@@ -180,7 +179,7 @@ fn creeping_velocity() -> f64 {
 /// Both experiments on three grids, with 9, 12 and 18 cells across the sphere, and the slow one without inertia.
 pub fn whole(context: &CaseContext) -> Outcome {
     let grids = [60, 80, 120];
-    let (mut records, mut curves) = (Vec::new(), Vec::new());
+    let mut records = Vec::new();
     for cells in [60, 80] {
         records.push(creeping(context, cells)?);
     }
@@ -198,21 +197,9 @@ pub fn whole(context: &CaseContext) -> Outcome {
                 let quantity = format!("trajectory against the coarser grid / r, {}", oil.name);
                 records.push(fall.trial.at_most(quantity, most, 0.1));
             }
-            curves.push(Curve {
-                name,
-                points: fall.gap.clone(),
-                mark: Mark::Line,
-            });
             before = Some(fall);
         }
     }
-    let chart = Chart::profile(
-        "Settling sphere of ten Cate et al. (2002)",
-        Measure::linear("time", "s"),
-        Measure::linear("height above the floor", "m"),
-        curves,
-    );
-    context.draw("solids_settling", &chart)?;
     Ok(records)
 }
 

@@ -101,7 +101,7 @@ pub fn measure(
         .setup
         .blocks
         .iter()
-        .map(|b| Pose::rigid(b.centre, b.rotation, DVec3::ZERO, DVec3::ZERO))
+        .map(|b| Pose::at_rest(b.centre, b.rotation))
         .collect();
     let begin = Instant::now();
     let mut stepping = Spent::default();

@@ -31,16 +31,12 @@ fn main() -> Result<(), Error> {
     measure(&mut criterion, "host", true, |items| {
         pollster::block_on(HostBroadphase.pairs(items))
     });
-    let wanted = std::env::var("RIPRAP_ADAPTER").unwrap_or_default();
-    for adapter in gpu::adapters() {
+    for adapter in gpu::wanted() {
         let info = adapter.get_info();
-        let name = gpu::describe(&info);
-        if !name.to_lowercase().contains(&wanted.to_lowercase()) {
-            continue;
-        }
         let (device, queue) = gpu::open(&adapter, wgpu::Features::empty(), adapter.limits())?;
         let mut finder = DeviceBroadphase::new(&device, &queue)?;
-        let (name, software) = (format!("device/{name}"), gpu::is_software(&info));
+        let name = format!("device/{}", gpu::describe(&info));
+        let software = gpu::is_software(&info);
         measure(&mut criterion, &name, software, |items| {
             gpu::drive(&device, PATIENCE, "a search", finder.pairs(items))?
         });

@@ -24,7 +24,6 @@ fn main() -> Result<(), riprap::Error> {
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_secs(2))
         .configure_from_args();
-    let wanted = std::env::var("RIPRAP_ADAPTER").unwrap_or_default();
     let edges = std::env::var("RIPRAP_PARTICLES").unwrap_or_default();
     let edges: Vec<u32> = edges
         .split(',')
@@ -34,12 +33,9 @@ fn main() -> Result<(), riprap::Error> {
         [] => &EDGES,
         given => given,
     };
-    for adapter in gpu::adapters() {
-        let name = gpu::describe(&adapter.get_info());
-        if name.to_lowercase().contains(&wanted.to_lowercase()) {
-            for &edge in edges {
-                bench(&mut criterion, &adapter, &name, edge)?;
-            }
+    for adapter in gpu::wanted() {
+        for &edge in edges {
+            bench(&mut criterion, &adapter, edge)?;
         }
     }
     criterion.final_summary();
@@ -49,11 +45,11 @@ fn main() -> Result<(), riprap::Error> {
 fn bench(
     criterion: &mut Criterion,
     adapter: &wgpu::Adapter,
-    name: &str,
     edge: u32,
 ) -> Result<(), riprap::Error> {
     let (device, queue) = gpu::open(adapter, wgpu::Features::empty(), adapter.limits())?;
-    let software = gpu::is_software(&adapter.get_info());
+    let info = adapter.get_info();
+    let (name, software) = (gpu::describe(&info), gpu::is_software(&info));
     let neighbours = if software {
         NeighbourSearch::Lists
     } else {

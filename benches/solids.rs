@@ -153,7 +153,7 @@ impl World {
         let pose = |n: u32| {
             let at = [n % BLOCKS, n / BLOCKS % BLOCKS, n / BLOCKS / BLOCKS].map(f64::from);
             let centre = (DVec3::from(at) + 0.5) * pitch + shift;
-            Pose::rigid(centre, rotation, DVec3::ZERO, DVec3::ZERO)
+            Pose::at_rest(centre, rotation)
         };
         let poses: Vec<_> = (0..BLOCKS.pow(3)).map(pose).collect();
         self.cells

@@ -36,14 +36,10 @@ pub fn on_adapters(
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(500))
         .configure_from_args();
-    let wanted = std::env::var("RIPRAP_ADAPTER").unwrap_or_default();
     let (mut table, mut names) = (Table::new(), Vec::new());
-    for adapter in gpu::adapters() {
+    for adapter in gpu::wanted() {
         let info = adapter.get_info();
         let name = gpu::describe(&info);
-        if !name.to_lowercase().contains(&wanted.to_lowercase()) {
-            continue;
-        }
         let features = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::SHADER_INT64;
         let (device, queue) = gpu::open(&adapter, adapter.features() & features, adapter.limits())?;
         measure(&mut Adapter {

@@ -66,7 +66,7 @@ const DEFORMABLE_RESPONSE: f64 = 3.0;
 
 /// Σ A n⊗n over the surfaces of all parts of a shape, m².
 fn projected_area(shape: &Shape) -> DMat3 {
-    let pose = Pose::rigid(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+    let pose = Pose::at_rest(DVec3::ZERO, DQuat::IDENTITY);
     let faces = shape.parts().iter().map(|part| match &part.form {
         Form::Sphere { radius } => {
             DMat3::from_diagonal(DVec3::splat(4.0 * PI / 3.0 * radius * radius))

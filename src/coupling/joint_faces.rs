@@ -285,7 +285,7 @@ mod tests {
                 // Multiples of irrational numbers are evenly distributed.
                 let at = DVec3::new(0.7548, 0.5698, 0.3172) * f64::from(n);
                 let centre = (at - at.floor()) * DVec3::new(9.0, 7.0, 8.0) - DVec3::splat(2.0);
-                Pose::rigid(centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+                Pose::at_rest(centre, DQuat::IDENTITY)
             })
             .collect();
         let period = |size: [f64; 3]| Period {
@@ -322,12 +322,7 @@ mod tests {
     #[test]
     fn a_face_is_in_a_joint_under_a_near_block() {
         let cube = |x: f64, y: f64| {
-            let pose = Pose::rigid(
-                DVec3::new(x, y, 0.0),
-                DQuat::IDENTITY,
-                DVec3::ZERO,
-                DVec3::ZERO,
-            );
+            let pose = Pose::at_rest(DVec3::new(x, y, 0.0), DQuat::IDENTITY);
             let part = Part {
                 form: Form::Convex(Polyhedron::cuboid(DVec3::ONE).unwrap()),
                 offset: DVec3::ZERO,

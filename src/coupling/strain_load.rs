@@ -53,7 +53,7 @@ mod tests {
         let shape: Shape = Polyhedron::tetrahedron(0.3).unwrap().into();
         let turn = DQuat::from_scaled_axis(DVec3::new(0.3, -0.8, 0.5));
         let centre = DVec3::new(1.0, 2.0, 0.5);
-        let pose = Pose::rigid(centre, turn, DVec3::ZERO, DVec3::ZERO);
+        let pose = Pose::at_rest(centre, turn);
         let weight = DVec3::new(100.0, 0.0, -9810.0);
         let pressure = |x: DVec3| 5000.0 + weight.dot(x - centre);
         let part = &shape.parts()[0];

@@ -358,7 +358,7 @@ mod tests {
 
     fn at(x: f64, y: f64, z: f64) -> Pose {
         let centre = DVec3::new(x, y, z);
-        Pose::rigid(centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+        Pose::at_rest(centre, DQuat::IDENTITY)
     }
 
     /// The load of a pressure on a face of a cube of 1 m, 8 cells wide, that is wet above the height `low` (m).

@@ -119,7 +119,7 @@ mod tests {
     fn faces_of_a_turned_box_close_it() {
         let shape = Polyhedron::cuboid(DVec3::new(2.0, 3.0, 4.0)).unwrap();
         let turn = glam::DQuat::from_rotation_y(0.7);
-        let pose = Pose::rigid(DVec3::ONE, turn, DVec3::ZERO, DVec3::ZERO);
+        let pose = Pose::at_rest(DVec3::ONE, turn);
         let part = Part {
             form: Form::Convex(shape),
             offset: DVec3::X,

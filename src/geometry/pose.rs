@@ -31,6 +31,11 @@ impl Pose {
         }
     }
 
+    /// Pose of a rigid block that does not move.
+    pub fn at_rest(centre: DVec3, rotation: DQuat) -> Self {
+        Self::rigid(centre, rotation, DVec3::ZERO, DVec3::ZERO)
+    }
+
     /// Whether all numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.centre.is_finite()

@@ -51,7 +51,7 @@ fn strain_areas(block: &Block, boundary: &[DVec3], spacing: f64) -> Vec<DMat3> {
         return Vec::new();
     }
     let mut areas = vec![DMat3::ZERO; boundary.len()];
-    let rest = Pose::rigid(DVec3::ZERO, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+    let rest = Pose::at_rest(DVec3::ZERO, DQuat::IDENTITY);
     let parts = block.shape.parts().iter().enumerate();
     let faces = parts.flat_map(|(number, part)| plane_faces(number, part, &rest));
     let faces: Vec<_> = faces.collect();

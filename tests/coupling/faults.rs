@@ -25,7 +25,7 @@ fn ball(radius: f64) -> SolidBlock {
 }
 
 fn at(centre: DVec3) -> Pose {
-    Pose::rigid(centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+    Pose::at_rest(centre, DQuat::IDENTITY)
 }
 
 fn lattice(rig: &Rig, cells: [u32; 3], operator: Option<SolidOperator>) -> Lattice {

@@ -1,44 +1,18 @@
 //! Shared helpers of the cases: blocks, setups, running to a time, restarts.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
+pub use kit::rock::{joint, setup, slope};
 use riprap::{
     Result,
     formula::Formula,
     geometry::{Polyhedron, Shape},
-    rock::{Block, Blocks, Material, Setup, Snapshot, broadphase::HostBroadphase, law::Joint},
+    rock::{Block, Blocks, Setup, Snapshot, broadphase::HostBroadphase},
 };
 use std::sync::Arc;
 
 pub fn cuboid(x: f64, y: f64, z: f64) -> Arc<Shape> {
     let shape = Polyhedron::cuboid(DVec3::new(x, y, z)).expect("the edges are positive");
     Arc::new(shape.into())
-}
-
-/// A rotation about y that tilts x downwards by `degrees`.
-pub fn slope(degrees: f64) -> DQuat {
-    DQuat::from_rotation_y(degrees.to_radians())
-}
-
-/// Joints of one stiffness in both directions, Pa/m, and the friction angle in degrees.
-pub fn joint(stiffness: f64, degrees: f64) -> Joint {
-    Joint {
-        normal_stiffness: stiffness,
-        shear_stiffness: stiffness,
-        friction_angle: degrees.to_radians(),
-        ..Joint::default()
-    }
-}
-
-pub fn setup(blocks: Vec<Block>, joint: Joint) -> Setup {
-    Setup {
-        blocks,
-        materials: vec![Material {
-            density: 2500.0,
-            joint,
-            elastic: None,
-        }],
-        ..Setup::default()
-    }
 }
 
 pub fn blocks(setup: Setup) -> Blocks {

@@ -77,6 +77,16 @@ pub fn pick(name: Option<&str>) -> Result<wgpu::Adapter> {
     })
 }
 
+/// The adapters whose description contains the environment variable `RIPRAP_ADAPTER`, or all; used by benches.
+pub fn wanted() -> impl Iterator<Item = wgpu::Adapter> {
+    let wanted = std::env::var("RIPRAP_ADAPTER").unwrap_or_default();
+    let wanted = wanted.to_lowercase();
+    let describe = |adapter: &wgpu::Adapter| describe(&adapter.get_info()).to_lowercase();
+    adapters()
+        .into_iter()
+        .filter(move |adapter| describe(adapter).contains(&wanted))
+}
+
 /// The adapter whose description contains the environment variable `RIPRAP_ADAPTER`, or the first one; used by tests.
 pub fn selected() -> Result<wgpu::Adapter> {
     pick(std::env::var("RIPRAP_ADAPTER").ok().as_deref())

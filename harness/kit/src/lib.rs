@@ -10,6 +10,7 @@ pub mod gpu;
 pub mod pile;
 mod random;
 mod rig;
+pub mod rock;
 pub mod scene;
 pub mod subject;
 pub mod tank;

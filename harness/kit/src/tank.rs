@@ -1,7 +1,7 @@
 //! A tank full of water, for timing.
 
 use crate::gpu::is_software;
-use glam::{DMat3, DVec3};
+use glam::{DQuat, DVec3};
 use riprap::{
     Result,
     geometry::Pose,
@@ -132,12 +132,7 @@ fn tank(edge: u32) -> (Setup, Vec<DVec3>) {
 
 /// The pose of a body at rest.
 pub fn resting(centre: DVec3) -> Pose {
-    Pose {
-        centre,
-        deformation: DMat3::IDENTITY,
-        velocity: DVec3::ZERO,
-        deformation_rate: DMat3::ZERO,
-    }
+    Pose::at_rest(centre, DQuat::IDENTITY)
 }
 
 /// The points (i + ½) Δx of a box of whole spacings; a planar setup has one row in its middle.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 fn at(x: f64, y: f64, z: f64) -> Pose {
     let centre = DVec3::new(x, y, z);
-    Pose::rigid(centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO)
+    Pose::at_rest(centre, DQuat::IDENTITY)
 }
 
 fn cuboid(x: f64, y: f64, z: f64) -> Arc<Shape> {
@@ -148,7 +148,7 @@ fn dry_joints_have_no_pressure() {
     let rotation = DQuat::from_rotation_y(PI / 6.0);
     let poses = poses.map(|pose| {
         let centre = rotation * pose.centre;
-        Pose::rigid(centre, rotation, DVec3::ZERO, DVec3::ZERO)
+        Pose::at_rest(centre, rotation)
     });
     let half = loads(shapes, &poses, None, |_| 0.0);
     // The lower side receives a surplus next to the floor, at half a metre of depth.

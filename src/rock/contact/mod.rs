@@ -16,7 +16,7 @@
 //! # fn main() -> riprap::Result<()> {
 //! // Two balls of radius 1 m, their centres 1.98 m apart.
 //! let ball = |x: f64| {
-//!     let pose = Pose::rigid(DVec3::X * x, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+//!     let pose = Pose::at_rest(DVec3::X * x, DQuat::IDENTITY);
 //!     let mut placed = Placed::default();
 //!     placed.update_sphere(1.0, DVec3::ZERO, &pose);
 //!     placed

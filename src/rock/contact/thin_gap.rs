@@ -274,12 +274,12 @@ mod tests {
             form: Form::Convex(Polyhedron::cuboid(size).unwrap()),
             offset: DVec3::ZERO,
         };
-        Placed::of(&part, &Pose::rigid(at, turn, DVec3::ZERO, DVec3::ZERO))
+        Placed::of(&part, &Pose::at_rest(at, turn))
     }
 
     fn ball(radius: f64, at: DVec3) -> Placed {
         let mut placed = Placed::default();
-        let pose = Pose::rigid(at, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+        let pose = Pose::at_rest(at, DQuat::IDENTITY);
         placed.update_sphere(radius, DVec3::ZERO, &pose);
         placed
     }
@@ -373,10 +373,7 @@ mod tests {
                 form: Form::Convex(disc.clone()),
                 offset: DVec3::ZERO,
             };
-            Placed::of(
-                &part,
-                &Pose::rigid(DVec3::Z * z, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO),
-            )
+            Placed::of(&part, &Pose::at_rest(DVec3::Z * z, DQuat::IDENTITY))
         };
         let found = ThinGap::between(&at(0.0), &at(0.25), 0.1).unwrap();
         let GapShape::Flat { torsion, tilts, .. } = found.shape else {

@@ -102,12 +102,7 @@ fn a_pose_that_is_not_finite_is_an_error() {
     let far = cube.at(DVec3::new(0.0, f64::INFINITY, 0.9), DQuat::IDENTITY);
     let no_size = ball(f64::NAN, DVec3::Z);
     let mut turned = Placed::default();
-    let pose = riprap::geometry::Pose::rigid(
-        DVec3::Z,
-        DQuat::from_xyzw(f64::NAN, 0.0, 0.0, 1.0),
-        DVec3::ZERO,
-        DVec3::ZERO,
-    );
+    let pose = riprap::geometry::Pose::at_rest(DVec3::Z, DQuat::from_xyzw(f64::NAN, 0.0, 0.0, 1.0));
     turned.update_sphere(0.4, DVec3::X, &pose);
     let mut resolver = Resolver::new(Options::default());
     for bad in [&lost, &far, &no_size, &turned] {

@@ -34,7 +34,7 @@ fn blocks() -> Vec<Placed> {
     };
     let fragments = mass.cut().unwrap();
     let placed = fragments.blocks.iter().map(|block| {
-        let pose = Pose::rigid(block.centre, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+        let pose = Pose::at_rest(block.centre, DQuat::IDENTITY);
         let mut placed = Placed::default();
         placed.update(&block.shape, DVec3::ZERO, &pose);
         placed

@@ -244,7 +244,7 @@ fn solid_fractions(turns: &InterleavedRuns, across: u32) -> anyhow::Result<f64> 
     let mut once = |times: u32| -> anyhow::Result<()> {
         for _ in 0..times {
             place += STRIDE * DVec3::new(0.5, 0.3, 0.8);
-            let pose = Pose::rigid(place, DQuat::IDENTITY, DVec3::ZERO, DVec3::ZERO);
+            let pose = Pose::at_rest(place, DQuat::IDENTITY);
             cells.place(device, queue, &mut lattice, &[pose])?;
             submit_pass(device, queue, |pass| cells.record_cells(pass));
             turns.clock.wait()?;

@@ -1,7 +1,7 @@
 // Blocks without a wall model.
-// needs velocity, $lanes
+// needs velocity, grid, $lanes
 
-fn apply_wall_stress(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
+fn apply_wall_stress(p: Place, slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>, s: ptr<function, array<Real, 27>>) -> Real {
     return Real(0.0);
 }
 
@@ -9,6 +9,6 @@ fn with_law(weight: Real, share_of_law: Real) -> Real {
     return weight;
 }
 
-fn sliding_velocity(slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>) -> Vector {
+fn sliding_velocity(p: Place, slot: u32, local: u32, rho: Real, v: Vector, h: ptr<function, array<Real, 27>>) -> Vector {
     return v;
 }

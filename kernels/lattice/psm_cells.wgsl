@@ -89,13 +89,13 @@ fn collide_with_solid(
     let v = psm.velocity;
     let excess = (*h)[0u];
     let without_block = (e > Real(0.0)) & (psm.shares == Real(0.0));
-    let on_surface = sliding_on_surface(slot, local, without_block, rho, v, h);
-    var s = equilibrium(rho, sliding_velocity(slot, local, rho, on_surface, h));
+    let on_surface = sliding_on_surface(p, slot, local, without_block, rho, v, h);
+    var s = equilibrium(rho, sliding_velocity(p, slot, local, rho, on_surface, h));
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }
     let factor = solid_operator(1.0 / (0.5 + tau_minus_half), rho, u, h, psm.interior, damping_in_full_cells(v, closure), &s);
-    let share_of_law = apply_wall_stress(slot, local, rho, v, h, &s);
+    let share_of_law = apply_wall_stress(p, slot, local, rho, v, h, &s);
     let weight = with_law(without_law, share_of_law);
     let higher = with_law(higher_without_law, share_of_law);
     *h = s;

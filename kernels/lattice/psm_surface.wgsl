@@ -36,7 +36,7 @@ fn collide_with_solid(
     h: ptr<function, array<Real, 27>>,
 ) -> SolidWeights {
     let zero = Real(0.0);
-    var s = equilibrium(rho, sliding_on_surface(slot, local, psm.fraction > zero, rho, Vector(zero, zero, zero), h));
+    var s = equilibrium(rho, sliding_on_surface(p, slot, local, psm.fraction > zero, rho, Vector(zero, zero, zero), h));
     for (var k = 1u; k < 27u; k++) { // unroll
         s[k] -= (*h)[k];
     }

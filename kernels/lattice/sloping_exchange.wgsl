@@ -3,8 +3,8 @@
 // that arrived leaves again, less the stress of the law of the wall times the area of the face in the column of the cell. The
 // surface of the full cells is a staircase; with m, the velocity of the solid along the face crosses its steps. What one cell
 // takes in, others give off: leaks proportional to the amounts make the sum zero. The momentum that arrived is that without the
-// pressure, of which single steps of the staircase have a part along the face.
-// needs sloping_cell, incoming, weights, $mirror
+// pressure, of which single steps of the staircase have a part along the face, and without that of fluid at rest.
+// needs sloping_cell, incoming, weights, balanced_cell_force, $mirror
 
 // Sums of what the cells at such faces give off, and of its amounts: each in units of 2^-24 by the multiples of 1024 and the rest, so
 // that the order does not matter.
@@ -42,6 +42,7 @@ fn weight_of(directions: u32) -> f32 {
 fn slip_at_slope(at: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f32) -> SlopingCell {
     var face = at;
     let around = neighbourhood(cell);
+    let at_rest = 1.5 * balanced_force(cell);
     // Sum and momentum of the populations that leave to the fluid, and the sums of w c and w c c.
     var sum = 0.0;
     var leaving = vec3(0.0);
@@ -51,7 +52,7 @@ fn slip_at_slope(at: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f
         if ((face.open & (1u << q)) != 0u) {
             let c = vec3<f32>(C[q]);
             let word = returned(around, face.slope, q);
-            let f = read_scalar(word.direction, word.scalar);
+            let f = read_scalar(word.direction, word.scalar) - weight(q) * dot(c, at_rest);
             sum += f;
             leaving += f * c;
             outward += weight(q) * c;

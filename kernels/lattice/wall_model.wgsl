@@ -3,7 +3,8 @@
 // tangential momentum that arrives at the wall, so that the fluid loses the stress exactly. The law reads the velocity of the
 // previous step in the fifth cell. Where the flow is laminar, m goes to 0 and the wall is bit-identical to a no-slip wall.
 // In the cells at an edge between two walls the links into both return the stress of both, along the edge.
-// needs wall_cells, scalars, link, cell_velocities, law_of_the_wall, mixing_length, $wall_blocks
+// P is without that of fluid at rest, in which the pressure balances the body force.
+// needs wall_cells, scalars, link, cell_velocities, law_of_the_wall, mixing_length, balanced_cell_force, $wall_blocks
 
 struct WallStress {
     // Tangential stress on the wall, along the lower and the upper axis of the face.
@@ -88,6 +89,7 @@ fn wall_model(
         f[j] = read_arrived(wall_links[j * count + n]);
         arriving += f[j] * vec2(f32(j % 3u) - 1.0, f32(j / 3u) - 1.0);
     }
+    arriving -= along_wall(balanced_force(padded_cell(here.cell)), here.face / 2u) * (1.0 / 12.0);
     let full = 3.0 * (2.0 * arriving - law.stress / max(law.speed, 1e-30) * law.velocity);
     // Limits m to twice the velocity that the law has read.
     let momentum = law.share * full * min(1.0, 2.0 * law.speed / max(length(full), 1e-30));
@@ -172,6 +174,7 @@ fn wall_edges(
         f[j] = read_arrived(wall_links[j * count + n]);
         arriving += select(-f[j], f[j], j % 2u == 1u);
     }
+    arriving -= 0.25 * EDGE_SUM * balanced_force(padded_cell(wall_cells[2u * n].cell))[edge.axis];
     let stress = vec2(sign(edge.first.velocity.x) * edge.first.stress, sign(edge.second.velocity.x) * edge.second.stress);
     // Limits m to twice the larger velocity that the laws have read.
     let most = 2.0 * max(edge.first.speed, edge.second.speed);

@@ -56,12 +56,16 @@ fn base(entry: &str, setup: &Setup, bindings: Bindings) -> Program {
     };
     let program = program.slot("reals", if wide { "reals_wide" } else { "reals_direct" });
     match setup.force {
-        Force::None => program.slot("force", "force_none"),
+        Force::None => program
+            .slot("force", "force_none")
+            .slot("balanced_force", "balanced_force_none"),
         Force::Constant(_) => program
             .slot("force", "guo")
+            .slot("balanced_force", "balanced_force_guo")
             .slot("body_force", "force_constant"),
         Force::Field(_) => program
             .slot("force", "guo")
+            .slot("balanced_force", "balanced_force_guo")
             .slot("body_force", "force_field"),
     }
 }
@@ -281,6 +285,14 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("W13", wall(rates.s13)),
         ("W23", wall(rates.s23)),
         ("W26", wall(rates.s26)),
+    ]);
+    let balanced = setup
+        .periodic_axes()
+        .map(|periodic| f64::from(u8::from(!periodic)));
+    all.extend([
+        ("BALANCED_X", balanced[0]),
+        ("BALANCED_Y", balanced[1]),
+        ("BALANCED_Z", balanced[2]),
     ]);
     let near = |rate| at_blocks.unwrap_or(rate);
     all.extend([

@@ -49,7 +49,7 @@ fn edges_corners_gaps_and_other_faces() {
         setup.wale = Some(0.5);
         setup.wall_model = Some(WallModel::WernerWengle);
         setup.solid_roughness = (0..16 * 9 * 12).map(|n| 0.1 * (n % 16) as f32).collect();
-        setup.force = Force::Constant([1e-5, 0.0, 2e-6]);
+        setup.force = Force::Constant([1e-5, 0.0, 3e-4]);
         let inlet = (0..9 * 12).map(|n| [0.02, 0.005 * noise(n) as f32, 0.0]);
         setup.faces = [
             [Face::Velocity(inlet.collect()), Face::FreeSlip],

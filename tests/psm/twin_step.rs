@@ -328,7 +328,7 @@ fn friction_of_blocks() {
             setup.solid_operator = Some([SolidOperator::Holdych, SolidOperator::Noble][n % 2]);
             setup.wale = Some(0.5);
             setup.wall_model = Some([WallModel::WernerWengle, WallModel::Reichardt][n % 2]);
-            setup.force = Force::Constant([1e-5, 0.0, 2e-6]);
+            setup.force = Force::Constant([1e-5, 0.0, 3e-4]);
             let mut subject = Subject::new(&setup);
             let bricks = subject.some_bricks();
             subject.fill_with(&bricks, |cell| plate([13, 16], first, cell));
@@ -394,7 +394,7 @@ fn friction_of_sloping_faces() {
             setup.wale = Some(0.5);
             setup.wall_model = Some(WallModel::Reichardt);
             setup.sloping_faces = storage == Storage::F32;
-            setup.force = Force::Constant([1e-5, 0.0, 2e-6]);
+            setup.force = Force::Constant([1e-5, 0.0, 3e-4]);
             let mut subject = Subject::new(&setup);
             let bricks: Vec<u32> = (0..subject.lattice.grid().bricks().iter().product()).collect();
             subject.fill_with(&bricks, |cell| slab(cells, cell));
@@ -489,7 +489,7 @@ fn friction_of_exact_surfaces() {
             setup.solid_operator = with_block.then_some(SolidOperator::Holdych);
             setup.wale = Some(0.5);
             setup.wall_model = Some([WallModel::WernerWengle, WallModel::Reichardt][n % 2]);
-            setup.force = Force::Constant([1e-5, 0.0, 2e-6]);
+            setup.force = Force::Constant([1e-5, 0.0, 3e-4]);
             let mut subject = Subject::new(&setup);
             let bricks = subject.some_bricks();
             let put = |subject: &mut Subject| {

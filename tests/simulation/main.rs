@@ -1,6 +1,7 @@
 //! Whole simulations: probes, sensors and restarts.
 
 mod flow_control;
+mod hydrostatic_walls;
 mod levels;
 mod pressure_sensors;
 mod probes;

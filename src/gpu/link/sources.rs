@@ -13,7 +13,7 @@ pub const SOURCES: &[(&str, &str)] = sources! {
         "neighbour_flags_stored", "neighbour_flags_none", "cell_force_constant", "cell_force_field",
         "cell_force_none", "cell_gradient", "cell_state", "cell_flags_stored", "cell_flags_none", "collide_stream",
         "derive", "eddy_none", "eddy_wale", "equilibrium_product", "equilibrium_second_order",
-        "exchange", "face_cells", "force_constant", "force_field", "force_none", "gather", "grid", "guard_none",
+        "balanced_cell_force", "balanced_force_guo", "balanced_force_none", "exchange", "face_cells", "force_constant", "force_field", "force_none", "gather", "grid", "guard_none",
         "guard_on", "guo", "half", "incoming", "initialise", "velocity_restored", "velocity_psm", "store_velocity_none", "store_velocity", "lanes_1",
         "lanes_2", "lanes_4", "lattice", "link", "links", "mark_blocks", "macroscopic", "moments", "moving_cells", "moving_wall", "near_wall_none", "near_wall_viscosity",
         "odd_rates_bulk", "odd_rates_solids", "odd_rates_walls", "operator_holdych", "operator_noble", "operator_superposition",

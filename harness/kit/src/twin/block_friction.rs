@@ -144,13 +144,15 @@ impl Twin {
 
     /// Adds the stress of the law to the change by the solid in a cell, where the block moves with `v`. In the cell under a face,
     /// of the momentum P along it that arrives P − τ returns, and the other directions leave with ρ v; a cell that the face
-    /// cuts exchanges none.
+    /// cuts exchanges none. In fluid at rest under the force F that the pressure balances, P is −F/12 and F/12 has to return; a cell
+    /// that is cut has −F/2 before the collision and F/2 after it.
     pub(super) fn apply_wall_stress(&self, cell: usize, v: [f64; 3], change: &mut [f64; Q]) {
         let own = self.friction_in(cell);
         let Some(law) = own.or_else(|| self.face_that_cuts(cell)) else {
             return;
         };
         let (n, f) = (law.face.axis, self.f[cell]);
+        let force = self.balanced_force(cell);
         let rho = macroscopic(&f, [0.0; 3]).0;
         let along_n = |i: usize| C[i][n] * law.face.out;
         for t in (0..3).filter(|t| *t != n) {
@@ -161,12 +163,16 @@ impl Twin {
                 .map(|side| sum(&|i| f64::from(u8::from(along_n(i) == side)) * (f[i] + change[i])));
             let arriving = sum(&|i| f64::from(u8::from(along_n(i) == -1)) * f[i]);
             let wanted = match own {
-                Some(_) => [rho * v[t] / 6.0, rho * v[t] / 1.5, arriving - law.stress[t]],
+                Some(_) => [
+                    rho * v[t] / 6.0,
+                    rho * v[t] / 1.5,
+                    arriving - law.stress[t] + force[t] / 6.0,
+                ],
                 None => {
                     // Distributed over all directions by their weights.
                     let all: f64 = now.iter().sum();
                     let before = sum(&|i| f[i]);
-                    [6.0, 1.5, 6.0].map(|part| (before - all) / part)
+                    [6.0, 1.5, 6.0].map(|part| (before + force[t] - all) / part)
                 }
             };
             let add: [f64; 3] = std::array::from_fn(|side| {

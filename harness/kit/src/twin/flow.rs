@@ -74,6 +74,15 @@ impl Twin {
         }
     }
 
+    /// The part of it that the pressure balances in fluid at rest: none along periodic axes.
+    pub(super) fn balanced_force(&self, cell: usize) -> [f64; 3] {
+        let force = self.force_at(cell);
+        [0, 1, 2].map(|a| match self.domain.faces[2 * a] {
+            super::Face::Periodic => 0.0,
+            _ => force[a],
+        })
+    }
+
     /// Density and velocity of a cell; 1 and 0 in solids.
     pub fn macroscopic(&self, cell: usize) -> (f64, [f64; 3]) {
         if self.domain.solid[cell] {
@@ -318,7 +327,8 @@ impl Twin {
         if let Some(model) = &self.wall_model {
             // The model acts before the coming step, on the populations that have arrived.
             let (nu, blocks) = (self.config.nu(), &self.blocks_before);
-            model.hand_over(&self.domain, nu, &kept, blocks, &mut self.f);
+            let force: Vec<_> = self.cells().map(|cell| self.balanced_force(cell)).collect();
+            model.hand_over(&self.domain, nu, &kept, (blocks, &force), &mut self.f);
         }
         self.previous_velocity = Some(kept);
         self.exchange_at_surface();

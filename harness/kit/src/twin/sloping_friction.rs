@@ -1,7 +1,7 @@
 //! A wall law on faces at an angle to the grid: their geometry, the exchange, and the faces of blocks.
 
 use super::lattice::{C, Q, W, direction};
-use super::wall_model::{norm, share};
+use super::wall_model::{at_rest, norm, share};
 use super::{Solid, SolidOperator, Twin};
 
 /// Solid fraction from which a cell counts as full.
@@ -38,6 +38,8 @@ pub(super) struct Sloping {
     pub u: [f64; 3],
     pub friction: f64,
     pub share: f64,
+    /// The force on the cell that the pressure balances in fluid at rest.
+    pub force: [f64; 3],
 }
 
 /// Solids as columns of cells see them: the fraction in a cell, the fraction of a full one, the cell next to one along an axis, if a
@@ -215,6 +217,7 @@ impl Twin {
                     u,
                     friction,
                     share: share(friction, nu),
+                    force: self.balanced_force(cell),
                 });
             }
         }
@@ -247,7 +250,8 @@ impl Twin {
         };
         let f = &self.f[cell];
         let rho = 1.0 + f.iter().sum::<f64>();
-        let u = [0, 1, 2].map(|a| (0..Q).map(|q| c(q)[a] * f[q]).sum::<f64>() / rho - v[a]);
+        let momentum = |a: usize| (0..Q).map(|q| c(q)[a] * f[q]).sum::<f64>();
+        let u = [0, 1, 2].map(|a| (momentum(a) + 0.5 * face.force[a]) / rho - v[a]);
         let away = dot(u, face.normal);
         [0, 1, 2].map(|a| v[a] + face.share * (u[a] - away * face.normal[a]))
     }
@@ -351,7 +355,8 @@ impl Sloping {
         };
         let stress = area * self.friction.powi(2) / norm(self.u).max(1e-30);
         let sum = |of: &dyn Fn(usize) -> f64| self.open.iter().map(|&q| of(q)).sum::<f64>();
-        let relative = |q: usize| leaving[q] - 3.0 * W[q] * dot(c(q), velocity);
+        let relative =
+            |q: usize| leaving[q] - 3.0 * W[q] * dot(c(q), velocity) - at_rest(q, self.force);
         let over = |q: usize, t: usize| dot(c(q), along[t]);
         // The pressure: f = w (excess + c·slip), where the differences to the means over the open directions give the slip.
         let all = sum(&|q| W[q]);

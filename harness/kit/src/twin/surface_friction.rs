@@ -145,7 +145,8 @@ impl Twin {
         };
         let f = &self.f[cell];
         let rho = 1.0 + f.iter().sum::<f64>();
-        let u = [0, 1, 2].map(|a| (0..Q).map(|q| c(q)[a] * f[q]).sum::<f64>() / rho);
+        let momentum = |a: usize| (0..Q).map(|q| c(q)[a] * f[q]).sum::<f64>();
+        let u = [0, 1, 2].map(|a| (momentum(a) + 0.5 * face.force[a]) / rho);
         let away = dot(u, face.normal);
         [0, 1, 2].map(|a| face.share * (u[a] - away * face.normal[a]))
     }

@@ -292,13 +292,14 @@ impl WallModel {
     }
 
     /// Corrects populations returned by walls with no slip to the stress of the law: of the momentum P into the wall
-    /// 2P would be lost; 2P − m/3 is lost with f_ī = f_i* − 6 w_i c_i·m.
+    /// 2P would be lost; 2P − m/3 is lost with f_ī = f_i* − 6 w_i c_i·m. P is without the 3/2 Σ w_i c_i c_i·F of fluid at rest under
+    /// a `force` F of each cell that the pressure balances.
     pub fn hand_over(
         &self,
         domain: &Domain,
         nu: f64,
         u: &[[f64; 3]],
-        blocks: &[bool],
+        (blocks, force): (&[bool], &[[f64; 3]]),
         f: &mut [[f64; Q]],
     ) {
         for (wall, blocked) in self.walls(domain, blocks) {
@@ -311,7 +312,7 @@ impl WallModel {
             let into = || (1..Q).filter(|&i| wall.is_into(i));
             let arriving = [0, 1, 2].map(|a| {
                 into()
-                    .map(|i| own[OPPOSITE[i]] * f64::from(C[i][a]))
+                    .map(|i| (own[OPPOSITE[i]] - at_rest(i, force[wall.cell])) * f64::from(C[i][a]))
                     .sum::<f64>()
             });
             let arriving = wall.along(arriving);
@@ -332,7 +333,10 @@ impl WallModel {
                 .filter(|&i| walls[0].is_into(i) || walls[1].is_into(i))
                 .collect();
             let along = |i: usize| f64::from(C[i][axis]);
-            let arriving: f64 = into.iter().map(|&i| own[OPPOSITE[i]] * along(i)).sum();
+            let mut along_edge = [0.0; 3];
+            along_edge[axis] = force[walls[0].cell][axis];
+            let net = |i: usize| own[OPPOSITE[i]] - at_rest(i, along_edge);
+            let arriving: f64 = into.iter().map(|&i| net(i) * along(i)).sum();
             let lost: f64 = into.iter().map(|&i| 6.0 * W[i] * along(i) * along(i)).sum();
             let most = 2.0 * speeds[0].abs().max(speeds[1].abs());
             let full = (2.0 * arriving - stress[0] - stress[1]) / lost;
@@ -342,6 +346,12 @@ impl WallModel {
             }
         }
     }
+}
+
+/// What the force adds to the population in a direction in fluid at rest.
+pub(super) fn at_rest(i: usize, force: [f64; 3]) -> f64 {
+    let along: f64 = (0..3).map(|a| f64::from(C[i][a]) * force[a]).sum();
+    1.5 * W[i] * along
 }
 
 /// The share of the model: 0 up to y⁺ = 3 of the first cell, 1 from 6 on.

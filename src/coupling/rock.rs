@@ -11,7 +11,7 @@ use crate::{
         broadphase::{AutoBroadphase, Broadphase},
     },
     scene::{
-        BroadphaseBackend, Scene,
+        BroadphaseBackend, Scene, Warning,
         build::{BlockSetup, rock_key},
     },
 };
@@ -94,7 +94,8 @@ impl Rock {
             setup.setup.time_step = Some(params.time_step);
         }
         let mut broadphase = broadphase(device, scene)?;
-        let blocks = begin(scene, &setup, &mut broadphase).await?;
+        let (blocks, thrown) = begin(scene, &setup, &mut broadphase).await?;
+        setup.advice.extend(thrown);
         let inside = params.and_then(|params| params.inside);
         let coupled = if params.is_some() { blocks.len() } else { 0 };
         Ok(Self {
@@ -431,8 +432,8 @@ pub(super) fn broadphase(
     Ok(broadphase)
 }
 
-/// The blocks of a scene at the time 0, pushed apart if the scene requests it. A trial sub-step, which is then undone,
-/// detects overlaps and a time step that is too long before the run.
+/// The blocks of a scene at the time 0, pushed apart if the scene requests it, and a warning if contacts throw blocks apart. A
+/// trial sub-step, which is then undone, detects these, larger overlaps, and a time step that is too long before the run.
 ///
 /// # Errors
 /// [`Error::Overlaps`] if blocks overlap, or cannot be pushed apart; [`Error::TimeStep`] if the step is too long for the
@@ -441,7 +442,8 @@ pub(super) async fn begin(
     scene: &Scene,
     setup: &BlockSetup,
     broadphase: &mut impl Broadphase,
-) -> Result<Blocks> {
+) -> Result<(Blocks, Option<Warning>)> {
+    let mut thrown = None;
     let mut blocks = Blocks::new(setup.setup.clone()).map_err(|error| error.at_key(rock_key))?;
     if scene.rock.relax {
         blocks.relax(broadphase, SWEEPS).await?;
@@ -451,8 +453,45 @@ pub(super) async fn begin(
         let pairs = broadphase.pairs(&blocks.aabbs()).await?;
         blocks.set_pairs(pairs)?;
         blocks.step()?;
+        thrown = thrown_apart(setup, &blocks);
         blocks.restore(&start)?;
         blocks.reset_peak_speed();
     }
-    Ok(blocks)
+    Ok((blocks, thrown))
+}
+
+/// A warning of the pair of blocks that the springs of its contact throw apart the fastest, if any lifts a block against gravity by
+/// more than 1 % of its radius.
+fn thrown_apart(setup: &BlockSetup, blocks: &Blocks) -> Option<Warning> {
+    const LIFT: f64 = 0.01;
+    // Without gravity: overlaps beyond rounding, as a fraction of the radius.
+    const ROUNDING: f64 = 1e-6;
+    let (mut fastest, mut found) = (0.0, None);
+    for contact in blocks.contacts() {
+        let energy = 0.5 * contact.force.dot(contact.normal) * contact.overlap;
+        let all = contact.blocks.map(|block| &setup.setup.blocks[block]);
+        let mass = |k: usize| match all[k].motion {
+            Motion::Free => blocks.mass(contact.blocks[k]),
+            _ => f64::INFINITY,
+        };
+        let lighter = if mass(0) <= mass(1) { 0 } else { 1 };
+        let (mass, other) = (mass(lighter), mass(1 - lighter));
+        let radius = all[lighter].shape.radius();
+        let weight = mass * blocks.gravity().length();
+        let speed = (2.0 * energy * (1.0 / mass + 1.0 / other)).sqrt();
+        if energy > LIFT * radius * weight && contact.overlap > ROUNDING * radius && speed > fastest
+        {
+            fastest = speed;
+            found = Some((all, contact.overlap, energy));
+        }
+    }
+    let ([first, second], overlap, energy) = found?;
+    Some(Warning {
+        place: format!("block {}", second.name),
+        message: format!(
+            "it overlaps `{}` by {overlap:.2e} m at the start, and the springs of their contact hold {energy:.2e} J: they can throw \
+             it off at {fastest:.2e} m/s; move one of them, or set relax = true in [rock]",
+            first.name
+        ),
+    })
 }

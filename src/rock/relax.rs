@@ -11,9 +11,14 @@ use crate::{
 };
 use glam::DVec3;
 
+/// Overlap at which blocks just touch, as a fraction of the allowed one.
+const TOUCHING: f64 = 1e-3;
+/// Sweeps in which the largest overlap must halve; otherwise there is no room.
+const PATIENCE: usize = 100;
+
 impl Blocks {
-    /// Pushes overlapping blocks apart along their contact normals, pair after pair, until no overlap exceeds
-    /// [`Setup::start_overlap`](super::Setup::start_overlap). The blocks of a pair move in inverse proportion to their
+    /// Pushes overlapping blocks apart along their contact normals, pair after pair, until they only just touch. Overlaps up to
+    /// [`Setup::start_overlap`](super::Setup::start_overlap) may remain between blocks that have no room. The blocks of a pair move in inverse proportion to their
     /// masses; blocks with the same centre, whose contact has no normal, along gravity. No block rotates, fixed and driven
     /// blocks do not move, and velocities do not change.
     ///
@@ -29,23 +34,31 @@ impl Blocks {
     ) -> Result<usize> {
         let mut resolver = Resolver::new(Options::default());
         let mut left = Vec::new();
+        // Largest overlap over the allowed one, when last compared.
+        let mut before = f64::INFINITY;
         for sweep in 0..=sweeps {
             if self.needs_pairs() {
                 let pairs = broadphase.pairs(&self.aabbs()).await?;
                 self.set_pairs(pairs)?;
             }
-            left = self.push_apart(&mut resolver)?;
-            if left.is_empty() {
+            let largest;
+            (left, largest) = self.push_apart(&mut resolver)?;
+            let slow = sweep % PATIENCE == PATIENCE - 1 && largest > 0.5 * before;
+            if left.is_empty() && (largest <= TOUCHING || slow || sweep == sweeps) {
                 return Ok(sweep);
+            }
+            if sweep % PATIENCE == PATIENCE - 1 {
+                before = largest;
             }
         }
         left.sort_by(|a, b| b.depth.total_cmp(&a.depth));
         Err(Error::Overlaps { pairs: left })
     }
 
-    /// One sweep; returns the pairs that overlapped too much before it.
-    fn push_apart(&mut self, resolver: &mut Resolver) -> Result<Vec<Overlap>> {
-        let mut found = Vec::new();
+    /// One sweep; returns the pairs that overlapped too much before it, and the largest overlap that it has reduced over the
+    /// allowed one.
+    fn push_apart(&mut self, resolver: &mut Resolver) -> Result<(Vec<Overlap>, f64)> {
+        let (mut found, mut largest) = (Vec::new(), 0.0);
         let mut image = Placed::default();
         for index in 0..self.pairs.len() {
             let pair = &mut self.pairs[index];
@@ -75,20 +88,20 @@ impl Blocks {
                 continue;
             };
             let most = DISTANCES_PER_LIMIT * self.start_overlap * contact.limit;
-            if contact.overlap <= most {
+            if contact.overlap > most {
+                found.push(Overlap {
+                    first: self.label(blocks[0]),
+                    second: self.label(blocks[1]),
+                    depth: contact.overlap,
+                });
+            }
+            if contact.overlap <= TOUCHING * most || inverse == [0.0; 2] {
                 continue;
             }
-            found.push(Overlap {
-                first: self.label(blocks[0]),
-                second: self.label(blocks[1]),
-                depth: contact.overlap,
-            });
-            if inverse == [0.0; 2] {
-                continue;
-            }
-            // Half the allowed overlap remains, so that neighbours in contact stay in contact.
+            largest = f64::max(largest, contact.overlap / most);
+            // They stay in contact.
             let (normal, distance) = match contact.overlap.is_finite() {
-                true => (contact.normal, contact.overlap - 0.5 * most),
+                true => (contact.normal, contact.overlap - 0.5 * TOUCHING * most),
                 false => {
                     let down = self.gravity.try_normalize().unwrap_or(DVec3::NEG_Z);
                     (down, DISTANCES_PER_LIMIT * contact.limit)
@@ -103,6 +116,6 @@ impl Blocks {
                 self.parts.place_block(body, &pose);
             }
         }
-        Ok(found)
+        Ok((found, largest))
     }
 }

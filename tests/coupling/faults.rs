@@ -5,9 +5,11 @@ use glam::{DQuat, DVec3};
 use kit::{Rig, assert_contains, scene::read};
 use riprap::{
     Error,
+    coupling::Rock,
     geometry::{Pose, Shape},
     lattice::{Lattice, Setup, SolidOperator, State},
     psm::{Frame, SolidBlock, SolidCells},
+    scene::build::block_setup,
     simulation::Needs,
     units::Units,
     wgpu,
@@ -267,4 +269,46 @@ fn a_frame_without_units_and_a_pose_without_volume_are_refused() {
         told.starts_with("block 0: ") && told.contains("determinant"),
         "{told}"
     );
+}
+
+/// Two cubes overlap by 4 mm, less than what is refused.
+#[test]
+fn contacts_that_throw_blocks_apart_are_warned_of() {
+    let advice = |rock: &str, gap: f64| {
+        let scene = read(&format!(
+            r#"
+            run.duration = 1
+            {rock}
+            [[materials]]
+            name = "rock"
+            density = 2650
+            normal_stiffness = 1e10
+            friction = 30
+            [[blocks]]
+            name = "lower"
+            kind = "box"
+            size = [1, 1, 1]
+            motion = "fixed"
+            [[blocks]]
+            name = "upper"
+            kind = "box"
+            size = [1, 1, 1]
+            position = [0, 0, {}]
+            "#,
+            1.0 + gap
+        ))
+        .unwrap();
+        let setup = block_setup(&scene).unwrap();
+        let rock = pollster::block_on(Rock::new(None, &scene, setup, None)).unwrap();
+        rock.setup().advice.clone()
+    };
+    let found = advice("", -0.004);
+    let [warning] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!(warning.place, "block upper");
+    assert_contains(&warning.message, &["`lower`", "4.00e-3 m", "relax = true"]);
+    // Its penetration at rest is 2.6 µm.
+    assert!(advice("", -2.6e-6).is_empty());
+    assert!(advice("rock.relax = true", -0.004).is_empty());
 }

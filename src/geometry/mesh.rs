@@ -1,8 +1,8 @@
 //! Triangle meshes from STL and OBJ files, and whether they enclose a volume.
 
-use super::bounding_box;
 #[cfg(feature = "mesh")]
 use super::mesh_file;
+use super::{bounding_box, cell::Moments};
 use crate::error::{Error, Result};
 use glam::DVec3;
 use std::{
@@ -24,6 +24,14 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
+    /// The volume that a closed mesh encloses, m³; negative if its triangles are inside out.
+    pub fn volume(&self) -> f64 {
+        let (min, max) = self.bounds();
+        let middle = (DVec3::from(min) + DVec3::from(max)) / 2.0;
+        let triangles = 0..self.triangles.len();
+        Moments::of(triangles.map(|t| self.corners(t).map(|c| c - middle))).volume
+    }
+
     /// A mesh of `triangles` over `vertices` (m). Vertices that coincide are merged.
     ///
     /// Triangles that lose their area by this are dropped.

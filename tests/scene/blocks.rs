@@ -1,13 +1,13 @@
 //! Scenes of blocks: every key, the defaults, and the resulting blocks.
 
 use glam::{DMat3, DVec3};
-use kit::assert_near;
+use kit::{assert_contains, assert_near};
 use riprap::rock;
 use riprap::scene::build::{block_setup, lattice_setup};
 use riprap::scene::*;
 use riprap::units::Units;
 
-use crate::{read, refused, warnings::STONE};
+use crate::{read, refused, solids::scratch, warnings::STONE};
 
 /// A scene of one cube.
 pub const CUBE: &str = r#"
@@ -270,6 +270,36 @@ fn keys_of_rock_masses_without_effect_are_warned_of() {
     let all = "[{ kind = \"box\", min = [0, 0, 0], max = [2, 2, 2] }]";
     let found = block_setup(&cut_cube(&format!("fixed = {all}"))).unwrap();
     assert!(found.advice.is_empty(), "{:?}", found.advice);
+}
+
+#[test]
+fn a_rock_mass_of_a_mesh_that_is_not_convex_is_warned_of() {
+    let dir = scratch("not_convex");
+    // A prism over an L of three unit squares: its hull has 3.5 m³.
+    let outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]];
+    let mut mesh = String::new();
+    for y in 0..2 {
+        for [x, z] in outline {
+            mesh += &format!("v {x} {y} {z}\n");
+        }
+    }
+    for [a, b, c] in [[1, 2, 3], [1, 3, 4], [1, 4, 6], [4, 5, 6]] {
+        mesh += &format!("f {a} {b} {c}\nf {} {} {}\n", a + 6, c + 6, b + 6);
+    }
+    for (a, b) in (1..7).map(|n| (n, n % 6 + 1)) {
+        mesh += &format!("f {a} {} {b}\nf {b} {} {}\n", a + 6, a + 6, b + 6);
+    }
+    std::fs::write(dir.join("l.obj"), mesh).unwrap();
+    let text = "[[materials]]\nname = \"rock\"\ndensity = 2700\nnormal_stiffness = 1e9\nfriction = 30\n\
+                [[rock_masses]]\nname = \"mass\"\nkind = \"mesh\"\nfile = \"l.obj\"\n\
+                joints = [{ dip = 0, dip_direction = 0, spacing = 9, origin = [0, 0, 0.5] }]\n[run]\nduration = 1\n";
+    let scene = Scene::from_toml(text, &dir, "mass.toml").unwrap();
+    let found = block_setup(&scene).unwrap();
+    let [warning] = &found.advice[..] else {
+        panic!("{:?}", found.advice);
+    };
+    assert_eq!(warning.place, "rock_masses[0].file");
+    assert_contains(&warning.message, &["not convex", "16.7 %"]);
 }
 
 #[test]

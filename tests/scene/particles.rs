@@ -4,6 +4,7 @@ use riprap::scene::build::block_setup;
 use riprap::scene::*;
 
 use crate::{CHANNEL, read, refused};
+use kit::assert_contains;
 
 /// A dam of water in a tank, open above, its sides periodic.
 pub const TANK: &str = r#"
@@ -156,6 +157,58 @@ fn blocks_meet_across_periodic_sides_but_not_in_a_plane() {
     assert_eq!(period(plane), None);
     let flow = period(read(CHANNEL)).expect("some faces are periodic");
     assert!(flow.size.min_element().is_finite());
+}
+
+#[test]
+fn blocks_of_a_plane_scene_stay_in_the_plane() {
+    let block = |keys: &str| {
+        let stone = format!(
+            r#"
+            [[materials]]
+            name = "rock"
+            density = 2650
+            normal_stiffness = 1e8
+            friction = 30
+            [[blocks]]
+            name = "stone"
+            kind = "box"
+            size = [0.4, 1, 0.4]
+            position = [2, 0.5, 1.5]
+            {keys}
+            "#
+        );
+        let text = TANK.replace("spacing = 0.05", "spacing = 0.05\nplane = true") + &stone;
+        block_setup(&read(&text).unwrap())
+    };
+    for keys in [
+        "velocity = [1, 0, -1]",
+        "spin = [0, 2, 0]",
+        "motion = \"driven\"\nvelocity = [\"t\", 0, \"sin(t)\"]\nspin = [0, \"t\", 0]",
+        "acceleration = [\"t\", 0, 1]",
+        "point_loads = [{ point = [0.2, 0, 0.2], force = [1, 0, \"t\"] }]",
+        "guide = [1, 0, 1]",
+    ] {
+        block(keys).unwrap();
+    }
+    for (keys, what) in [
+        ("velocity = [0, 1, 0]", "velocity"),
+        ("spin = [1, 0, 0]", "spin"),
+        ("motion = \"driven\"\nvelocity = [0, \"t\", 0]", "velocity"),
+        ("motion = \"driven\"\nspin = [0, 0, \"t\"]", "spin"),
+        ("acceleration = [0, \"t\", 0]", "acceleration"),
+        (
+            "point_loads = [{ point = [0, 0.1, 0], force = [1, 0, 0] }]",
+            "point load",
+        ),
+        (
+            "point_loads = [{ point = [0, 0, 0], force = [0, 1, 0] }]",
+            "point load",
+        ),
+        ("guide = [0, 1, 1]", "guide"),
+    ] {
+        let error = block(keys).unwrap_err().to_string();
+        assert_contains(&error, &["block stone", what, "plane scene"]);
+    }
 }
 
 /// −1.2 + 7.6 is 6.3999… in binary.

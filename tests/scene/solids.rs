@@ -16,7 +16,7 @@ use riprap::{
 use crate::{channel, refused};
 
 /// A scratch directory of one test.
-fn scratch(test: &str) -> PathBuf {
+pub(crate) fn scratch(test: &str) -> PathBuf {
     let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
     fs::create_dir_all(&dir).unwrap();
     dir

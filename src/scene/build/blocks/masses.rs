@@ -38,7 +38,7 @@ pub(super) fn blocks(
         },
         smallest_volume: mass.smallest_volume,
         smallest_thickness: mass.smallest_thickness,
-        ..RockMass::new(vec![volume(scene, &key, &mass.volume)?])
+        ..RockMass::new(vec![volume(scene, &key, &mass.volume, advice)?])
     };
     let fragments = rock
         .cut()
@@ -164,12 +164,19 @@ fn joints(mass: &scene::RockMass, number: u64, set: &scene::JointSet) -> JointSe
     }
 }
 
-/// The faces of a volume, in the coordinates of the scene.
-fn volume(scene: &Scene, key: &str, volume: &Volume) -> Result<Vec<HalfSpace>> {
-    let faces = |points: &[DVec3]| {
-        let (hull, centroid) = Polyhedron::from_vertices(points)?;
+/// Excess of the volume of a hull over that of its mesh from which the mesh counts as not convex.
+const NOT_CONVEX: f64 = 1e-3;
+
+/// The faces of a volume, in the coordinates of the scene; `advice` takes warnings.
+fn volume(
+    scene: &Scene,
+    key: &str,
+    volume: &Volume,
+    advice: &mut Advice,
+) -> Result<Vec<HalfSpace>> {
+    let seen = |hull: &Polyhedron, centroid: DVec3| {
         let faces = hull.faces().iter();
-        Ok(faces.map(|face| face.seen_from(-centroid)).collect())
+        faces.map(|face| face.seen_from(-centroid)).collect()
     };
     match volume {
         Volume::Box { min, max } => {
@@ -186,8 +193,9 @@ fn volume(scene: &Scene, key: &str, volume: &Volume) -> Result<Vec<HalfSpace>> {
         }
         Volume::Vertices { vertices } => {
             let points: Vec<DVec3> = vertices.iter().copied().map(DVec3::from).collect();
-            faces(&points)
-                .map_err(|error: crate::Error| error.at_key(|what| format!("{key}.{what}")))
+            let (hull, centroid) = Polyhedron::from_vertices(&points)
+                .map_err(|error| error.at_key(|what| format!("{key}.{what}")))?;
+            Ok(seen(&hull, centroid))
         }
         Volume::HalfSpaces { faces } => Ok(half_spaces(faces)),
         Volume::Mesh {
@@ -196,7 +204,20 @@ fn volume(scene: &Scene, key: &str, volume: &Volume) -> Result<Vec<HalfSpace>> {
             translate,
         } => {
             let path = scene.dir().join(file);
-            faces(&closed_mesh(&path, *scale, DVec3::from(*translate))?.vertices)
+            let mesh = closed_mesh(&path, *scale, DVec3::from(*translate))?;
+            let (hull, centroid) = Polyhedron::from_vertices(&mesh.vertices)?;
+            let more = hull.volume() / mesh.volume().abs() - 1.0;
+            if more > NOT_CONVEX {
+                advice.push(Warning {
+                    place: format!("{key}.file"),
+                    message: format!(
+                        "the mesh is not convex, and the mass is its hull, which has {:.1} % more volume; give its convex parts \
+                         as meshes of several masses",
+                        100.0 * more
+                    ),
+                });
+            }
+            Ok(seen(&hull, centroid))
         }
     }
 }

@@ -10,10 +10,11 @@ pub(crate) use shapes::{rotation, shape};
 
 use crate::{
     Error, Result,
-    rock::{Block, Guide, Period, Setup, Sleep},
+    formula::Formula,
+    rock::{Block, Guide, Motion, Period, Setup, Sleep},
     scene::{Advice, Boundary, Face, ProbePlace, Scene},
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3, Vec3Swizzles};
 use std::collections::HashSet;
 
 /// The blocks of a scene, ready to be run.
@@ -97,6 +98,9 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
     check_faces(scene, &setup.blocks[in_fluid..])?;
     check_safety(scene, &setup)?;
     check_domain(scene, &setup)?;
+    if is_plane(scene) {
+        check_plane(&setup)?;
+    }
     Ok(BlockSetup {
         setup,
         left_out,
@@ -109,10 +113,9 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
 /// fill the width.
 fn period(scene: &Scene) -> Option<Period> {
     let faces = [Face::XMin, Face::YMin, Face::ZMin];
-    let plane = scene.particles.as_ref().is_some_and(|p| p.plane);
     let size = std::array::from_fn(|axis| {
         let repeats = *scene.boundaries.face(faces[axis]) == Boundary::Periodic;
-        match repeats && !(plane && axis == 1) {
+        match repeats && !(is_plane(scene) && axis == 1) {
             true => scene.domain.size[axis],
             false => f64::INFINITY,
         }
@@ -122,6 +125,63 @@ fn period(scene: &Scene) -> Option<Period> {
         origin: DVec3::from(scene.domain.origin),
         size,
     })
+}
+
+/// Whether nothing varies along y.
+fn is_plane(scene: &Scene) -> bool {
+    scene.particles.as_ref().is_some_and(|p| p.plane)
+}
+
+/// Checks that nothing moves a block out of the plane of a plane flow or turns it about another axis than y.
+fn check_plane(setup: &Setup) -> Result<()> {
+    let refuse = |block: &Block, what: &str| {
+        Err(Error::scene(
+            format!("block {}", block.name),
+            format!(
+                "{what}, and in a plane scene (particles.plane) blocks move along x and z and turn about y; correct it, or \
+                 remove plane"
+            ),
+        ))
+    };
+    let is_zero = |formula: &Formula| formula.constant() == Some(0.0);
+    for block in &setup.blocks {
+        let (velocity, spin) = match &block.motion {
+            Motion::Driven { velocity, spin } => (
+                is_zero(&velocity[1]),
+                is_zero(&spin[0]) && is_zero(&spin[2]),
+            ),
+            _ => (block.velocity.y == 0.0, block.spin.xz() == DVec2::ZERO),
+        };
+        if !velocity {
+            return refuse(block, "its velocity has a component along y");
+        }
+        if !spin {
+            return refuse(block, "its spin has components along x or z");
+        }
+        if let Some([_, y, _]) = &block.acceleration
+            && !is_zero(y)
+        {
+            return refuse(block, "its acceleration has a component along y");
+        }
+        for load in &block.point_loads {
+            let lever = (block.rotation * load.point).y;
+            if !is_zero(&load.force[1]) || lever.abs() > 1e-6 * block.shape.radius() {
+                return refuse(
+                    block,
+                    "a point load acts along y, or in front of its centroid or behind it",
+                );
+            }
+        }
+    }
+    for guide in &setup.guides {
+        if guide.axis.y != 0.0 {
+            return refuse(
+                &setup.blocks[guide.block],
+                "its guide has a component along y",
+            );
+        }
+    }
+    Ok(())
 }
 
 /// Similarity (Jaro–Winkler) from which one name counts as a misspelling of the other.
@@ -173,7 +233,7 @@ fn check_domain(scene: &Scene, setup: &Setup) -> Result<()> {
     }
     let (low, high) = (DVec3::from(domain.origin), DVec3::from(domain.end()));
     for block in &setup.blocks {
-        let fixed = block.motion == crate::rock::Motion::Fixed;
+        let fixed = block.motion == Motion::Fixed;
         let margin = DVec3::splat(if fixed { block.shape.radius() } else { 0.0 });
         let out = block.centre.cmplt(low - margin) | block.centre.cmpgt(high + margin);
         if out.any() {

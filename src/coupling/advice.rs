@@ -185,6 +185,9 @@ const MAX_WAVE_SPEED_RATIO: f64 = 2.0;
 /// friction and water reduce.
 const FALL_SPEED_RATIO: f64 = 1.5;
 
+/// Difference of the size of a tank from a whole number of spacings from which its water starts too far from the wall, or too near.
+const WALL_TOLERANCE: f64 = 0.05;
+
 /// Warnings about the water of `scene` with the particle setup `setup`: `positions` (m) are the initial positions of the
 /// particles, `state` the initial state of `blocks`.
 ///
@@ -216,6 +219,7 @@ pub async fn particle_advice(
         }
     }
     check_mass(scene, blocks, setup, positions.len(), &mut warn)?;
+    check_walls(setup, positions, &mut warn);
     check_support(scene, blocks, setup, &mut warn);
     check_speeds(scene, blocks, setup, positions, &mut warn);
     check_probes(scene, blocks, setup, positions, &mut warn);
@@ -314,6 +318,35 @@ fn check_mass(
         );
     }
     Ok(())
+}
+
+/// Warns if the last particles before a wall are not half a spacing from it.
+fn check_walls(setup: &Setup, positions: &[DVec3], warn: &mut impl FnMut(String, String)) {
+    for axis in (0..3).filter(|&axis| !(setup.plane && axis == 1)) {
+        if setup.faces[axis][0] == Side::Periodic {
+            continue;
+        }
+        let (size, spacing) = (setup.size[axis], setup.spacing);
+        let end = setup.origin[axis] + size;
+        let last = min_max(positions.iter().map(|x| x[axis]))[1];
+        let count = size / spacing;
+        let apart = (count - count.round()).abs();
+        if apart > WALL_TOLERANCE
+            && end - last < 1.5 * spacing
+            && setup.faces[axis][1] != Side::Open
+        {
+            warn(
+                format!("domain.size[{axis}]"),
+                format!(
+                    "{size} m are {count:.2} particles: the water starts {:.2} of a spacing from the upper wall instead of half of \
+                     one, and sloshes; use {:.4} or {:.4} m, or a spacing that divides the size",
+                    (end - last) / spacing,
+                    count.floor() * spacing,
+                    count.ceil() * spacing
+                ),
+            );
+        }
+    }
 }
 
 /// Warns if nothing supports the water against gravity.

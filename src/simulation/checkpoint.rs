@@ -125,12 +125,13 @@ impl Checkpoint {
         }
     }
 
-    /// Checks that it belongs to a simulation with the same time step.
+    /// Checks that it belongs to a simulation with the same time step, up to a relative difference besides rounding.
     ///
     /// # Errors
     /// [`Error::Argument`] if not.
-    pub(super) fn check_time_step(&self, time_step: f64) -> Result<()> {
-        if differ(self.time_step, time_step) {
+    pub(super) fn check_time_step(&self, time_step: f64, difference: f64) -> Result<()> {
+        let apart = (self.time_step - time_step).abs() > difference * time_step;
+        if apart && differ(self.time_step, time_step) {
             return Err(other_scene(
                 format!("steps of {:e} s", self.time_step),
                 format!("steps of {time_step:e} s"),

@@ -1,10 +1,13 @@
 //! The state of a simulation, and its restart.
 
 use super::{
-    Fluid, Simulation,
+    Fluid, Kind, Simulation,
     checkpoint::{Checkpoint, FluidState, other_scene},
 };
 use crate::{Result, coupling::Rock};
+
+/// Relative difference up to which a scene without a lattice takes over the step of a checkpoint.
+const SIMILAR: f64 = 0.1;
 
 impl Simulation {
     /// The present state, for a later [`Simulation::restore`].
@@ -29,7 +32,8 @@ impl Simulation {
         })
     }
 
-    /// Restores a checkpoint of the same scene: the next steps are bit-identical to the steps of the run that wrote it.
+    /// Restores a checkpoint of the same scene: the next steps are bit-identical to the steps of the run that wrote it. A scene
+    /// without a lattice that differs in its duration takes over the step of the checkpoint, if it is similar.
     ///
     /// # Errors
     /// [`Error::Argument`](crate::Error::Argument) if it has another kind, time step, grid, or number of particles or blocks.
@@ -45,7 +49,9 @@ impl Simulation {
             (None, None) => {}
             _ => return Err(other_scene(checkpoint.kind(), self.kind())),
         }
-        checkpoint.check_time_step(self.time_step)?;
+        // The step of a lattice follows from its units; that of other scenes divides the duration of the run, which may change.
+        let fluid_has_units = self.kind() == Kind::Lattice;
+        checkpoint.check_time_step(self.time_step, if fluid_has_units { 0.0 } else { SIMILAR })?;
         match (&mut self.rock, &checkpoint.rock) {
             (Some(rock), Some(state)) => rock.restore(state)?,
             (None, None) => {}
@@ -62,6 +68,9 @@ impl Simulation {
             _ => {}
         }
         self.step = checkpoint.step;
+        if !fluid_has_units {
+            self.time_step = checkpoint.time_step;
+        }
         Ok(())
     }
 }

@@ -236,6 +236,12 @@ fn shear_over_the_face_resists_a_twist_about_the_normal_up_to_its_friction() {
     let held = twisted(1e-4, 0.0);
     assert_relative(held.couple().z, -1e-4 * 1e8 / 3.0, 1e-12);
     assert_eq!(held.friction, 0.0);
+    // A sphere touches at a point.
+    let ball = Section {
+        rolls: true,
+        ..SECTION
+    };
+    assert_eq!(on(ball, 1e-4, 0.0).couple().z, 0.0);
     let slipped = twisted(1.0, 0.0);
     assert_relative(slipped.couple().z, -twist, 1e-12);
     assert_relative(slipped.friction, twist * (1.0 - twist / (1e8 / 3.0)), 1e-12);

@@ -62,6 +62,32 @@ fn shallow_water_thin_blocks_and_narrow_gaps_give_warnings() {
     insta::assert_snapshot!(told.join("\n"));
 }
 
+/// Water that starts at another distance than half a spacing from a wall sloshes.
+#[test]
+fn tanks_of_whole_spacings_hold_water_at_rest() {
+    for (length, words) in [
+        (2.0, None),
+        (2.02, Some("2.0000 or 2.0500 m")),
+        (2.03, Some("2.0000 or 2.0500 m")),
+    ] {
+        let mut tank = scene("", "").unwrap();
+        tank.domain.size[0] = length;
+        tank.water[0].shape = BlockShape::Box {
+            size: [length, 1.0, 0.5],
+        };
+        tank.water[0].position[0] = 0.5 * length;
+        let found = warnings(&tank);
+        let found: Vec<_> = found
+            .iter()
+            .filter(|w| w.contains("domain.size[0]"))
+            .collect();
+        match words {
+            Some(words) => assert_contains(found[0], &[words]),
+            None => assert!(found.is_empty(), "{found:?}"),
+        }
+    }
+}
+
 /// The ends of a prism in a planar scene are not checked.
 #[test]
 fn prisms_in_a_planar_scene_may_be_as_thin_as_it() {

@@ -109,12 +109,14 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
         let message = "a run has at least one; `riprap check` examines a scene without running it";
         return Err(Error::argument("--steps 0", message).into());
     }
+    if let Some(path) = &args.restart {
+        run.restore(path)?;
+    }
     let last = args
         .steps
         .unwrap_or_else(|| run.scene().run.count(run.time_step()))
         .max(1);
-    if let Some(path) = &args.restart {
-        run.restore(path)?;
+    if args.restart.is_some() {
         let done = run.step();
         if done >= last {
             return Err(Error::argument(

@@ -275,6 +275,19 @@ fn what_cannot_be_is_refused_with_what_to_change() {
     }
 }
 
+/// Its step does not divide the longer duration.
+#[test]
+fn a_run_that_has_ended_goes_on_with_a_longer_duration() {
+    let folder = folder("dry_longer");
+    go(&args(&folder, PILE, "out"));
+    let longer = PILE.replace("duration = 0.1", "duration = 0.137");
+    let mut on = args(&folder, &longer, "on");
+    on.restart = Some(folder.join("out/checkpoint.riprap"));
+    let summary = go(&on);
+    assert!(summary.complete, "{summary}");
+    assert_near(last(&folder.join("on/top.csv"), "time"), 0.137, 0.002);
+}
+
 #[test]
 fn blocks_that_overlap_can_be_pushed_apart() {
     let folder = folder("dry_relax");

@@ -14,7 +14,7 @@
 //! The dashpots are distributed over the face like the springs: 3DEC has them in every sub-contact. At a single point they
 //! would not damp rocking, since the pressure centre of a rocking block moves with the angle:
 //! the damping would be of second order in it, and a stack would never come to rest. Their moments
-//! are c_n n × S (n × ω) for rocking and c_s ρ² for twist. A sphere rolls on its contact
+//! are c_n n × S (n × ω) for rocking and c_s ρ² for twist. A sphere touches at a point: nothing resists its twist. It rolls on its contact
 //! instead of rocking: the contact moves with it, the springs dissipate nothing, and no dashpot resists the rolling.
 //!
 //! A bond is a contact whose springs also carry tension: it keeps its initial area, and bends over it as an elastic
@@ -145,7 +145,11 @@ pub fn force(joint: &Joint, section: &Section, motion: &Motion, history: &Histor
     let strength = joint.cohesion * area + pressed.max(0.0) * tan_phi;
     let tangential = motion.displacement - normal * motion.displacement.dot(normal);
     let twist = motion.spin.dot(normal);
-    let polar = spread.x_axis.x + spread.y_axis.y + spread.z_axis.z;
+    // The overlap of a sphere is far wider than its contact, which is a point.
+    let polar = match rolls && !bonded {
+        true => 0.0,
+        false => spread.x_axis.x + spread.y_axis.y + spread.z_axis.z,
+    };
     let torsional_stiffness = shear_stiffness * polar;
     let arm = mean_arm(area, polar);
     let limit = Limit {

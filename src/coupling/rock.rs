@@ -464,8 +464,8 @@ pub(super) async fn begin(
 /// more than 1 % of its radius.
 fn thrown_apart(setup: &BlockSetup, blocks: &Blocks) -> Option<Warning> {
     const LIFT: f64 = 0.01;
-    // Without gravity: overlaps beyond rounding, as a fraction of the radius.
-    const ROUNDING: f64 = 1e-6;
+    // Also without gravity, blocks that just touch are not thrown apart: overlap as a fraction of the radius.
+    const TOUCHING: f64 = 1e-5;
     let (mut fastest, mut found) = (0.0, None);
     for contact in blocks.contacts() {
         let energy = 0.5 * contact.force.dot(contact.normal) * contact.overlap;
@@ -479,7 +479,7 @@ fn thrown_apart(setup: &BlockSetup, blocks: &Blocks) -> Option<Warning> {
         let radius = all[lighter].shape.radius();
         let weight = mass * blocks.gravity().length();
         let speed = (2.0 * energy * (1.0 / mass + 1.0 / other)).sqrt();
-        if energy > LIFT * radius * weight && contact.overlap > ROUNDING * radius && speed > fastest
+        if energy > LIFT * radius * weight && contact.overlap > TOUCHING * radius && speed > fastest
         {
             fastest = speed;
             found = Some((all, contact.overlap, energy));

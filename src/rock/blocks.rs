@@ -404,6 +404,9 @@ impl Blocks {
         while self.time < until {
             if self.needs_pairs() {
                 let start = self.step_times.map(|_| Instant::now());
+                if let Some(bad) = self.states.iter().position(|state| !state.is_finite()) {
+                    return Err(self.not_finite(bad, self.time));
+                }
                 let pairs = broadphase.pairs(&self.aabbs()).await?;
                 self.set_pairs(pairs)?;
                 if let (Some(times), Some(start)) = (&mut self.step_times, start) {

@@ -74,12 +74,17 @@ impl Body {
         formulas.each_ref().map(|v| formula_values(v, t))
     }
 
-    /// The first formula of a driven block whose value is not finite at the time `t` (s), if any.
-    pub fn undriven_at(&self, t: f64) -> Option<&str> {
-        let Drive::Formulas(formulas) = &self.drive else {
-            return None;
+    /// The first formula of a drive, a point load or an acceleration whose value is not finite at the time `t` (s), if any.
+    pub fn undefined_at(&self, t: f64) -> Option<&str> {
+        let formulas: Vec<&[Formula; 3]> = match &self.drive {
+            Drive::Formulas(formulas) => formulas.iter().collect(),
+            Drive::Forces(Some(applied)) => {
+                let loads = applied.point_loads.iter().map(|load| &load.force);
+                loads.chain(&applied.acceleration).collect()
+            }
+            Drive::Forces(None) | Drive::Nothing => Vec::new(),
         };
-        let mut all = formulas.iter().flatten();
+        let mut all = formulas.into_iter().flatten();
         let lost = all.find(|formula| !formula.eval_at([0.0; 3], t).is_finite());
         lost.map(Formula::text)
     }

@@ -281,14 +281,14 @@ impl Blocks {
     }
 
     /// The error of a block whose state at `time` (s) is not finite, or that is inverted.
-    fn not_finite(&self, number: usize, time: f64) -> Error {
+    pub(super) fn not_finite(&self, number: usize, time: f64) -> Error {
         let strain = self.deforming.of_next(&self.bodies[number]);
         let crushed = strain.is_some_and(|strain| strain.deformation.determinant() <= 0.0);
         let block = self.label(number);
         if crushed {
             return Error::Inverted { block, time };
         }
-        let remedy = match self.bodies[number].undriven_at(time) {
+        let remedy = match self.bodies[number].undefined_at(time) {
             Some(formula) => format!(
                 "its formula `{formula}` has no finite value there; give one that has at all times of the run"
             ),

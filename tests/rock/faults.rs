@@ -265,6 +265,19 @@ fn pairs_that_are_none_are_refused() {
 }
 
 #[test]
+fn an_acceleration_without_a_value_names_its_formula_and_the_time() {
+    let mut block = cube("pushed", 0.0);
+    block.acceleration = Some(formulas(["1/max(0, 0.05 - t)", "0", "0"]));
+    let mut blocks = blocks(Setup {
+        time_step: Some(1e-3),
+        ..setup(vec![block], joint(1e8, 30.0))
+    });
+    let error = try_run(&mut blocks, 0.1).unwrap_err();
+    assert!((blocks.time() - 0.05).abs() < 2e-3, "{}", blocks.time());
+    assert_contains(error, &["blocks[0] (pushed)", "`1/max(0, 0.05 - t)`"]);
+}
+
+#[test]
 fn a_drive_without_a_value_names_its_formula_and_the_time() {
     let mut block = cube("ram", 0.0);
     block.motion = Motion::Driven {

@@ -50,8 +50,8 @@ impl Simulation {
             _ => return Err(other_scene(checkpoint.kind(), self.kind())),
         }
         // The step of a lattice follows from its units; that of other scenes divides the duration of the run, which may change.
-        let fluid_has_units = self.kind() == Kind::Lattice;
-        checkpoint.check_time_step(self.time_step, if fluid_has_units { 0.0 } else { SIMILAR })?;
+        let is_lattice = self.kind() == Kind::Lattice;
+        checkpoint.check_time_step(self.time_step, if is_lattice { 0.0 } else { SIMILAR })?;
         match (&mut self.rock, &checkpoint.rock) {
             (Some(rock), Some(state)) => rock.restore(state)?,
             (None, None) => {}
@@ -68,7 +68,7 @@ impl Simulation {
             _ => {}
         }
         self.step = checkpoint.step;
-        if !fluid_has_units {
+        if !is_lattice {
             self.time_step = checkpoint.time_step;
         }
         Ok(())

@@ -221,6 +221,11 @@ impl Scene {
         self.check_particle_output()
     }
 
+    /// Whether it is a plane scene of particles, in which nothing varies along y.
+    pub(crate) fn is_plane(&self) -> bool {
+        self.particles.as_ref().is_some_and(|p| p.plane)
+    }
+
     /// Checks the domain of a fluid of particles.
     pub(super) fn check_particle_domain(&self, particles: &Particles) -> Result<()> {
         let domain = &self.domain;
@@ -449,7 +454,7 @@ impl Scene {
         let open_side = [Face::YMin, Face::YMax]
             .into_iter()
             .find(|face| *self.boundaries.face(*face) == Boundary::Open);
-        if let (Some(face), true) = (open_side, self.particles.as_ref().is_some_and(|p| p.plane)) {
+        if let (Some(face), true) = (open_side, self.is_plane()) {
             return refuse(
                 format!("boundaries.{}", face.name()),
                 "nothing varies along y (particles.plane), so nothing leaves there; make it periodic, or free_slip",

@@ -98,7 +98,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
     check_faces(scene, &setup.blocks[in_fluid..])?;
     check_safety(scene, &setup)?;
     check_domain(scene, &setup)?;
-    if is_plane(scene) {
+    if scene.is_plane() {
         check_plane(&setup)?;
     }
     Ok(BlockSetup {
@@ -115,7 +115,7 @@ fn period(scene: &Scene) -> Option<Period> {
     let faces = [Face::XMin, Face::YMin, Face::ZMin];
     let size = std::array::from_fn(|axis| {
         let repeats = *scene.boundaries.face(faces[axis]) == Boundary::Periodic;
-        match repeats && !(is_plane(scene) && axis == 1) {
+        match repeats && !(scene.is_plane() && axis == 1) {
             true => scene.domain.size[axis],
             false => f64::INFINITY,
         }
@@ -125,11 +125,6 @@ fn period(scene: &Scene) -> Option<Period> {
         origin: DVec3::from(scene.domain.origin),
         size,
     })
-}
-
-/// Whether nothing varies along y.
-fn is_plane(scene: &Scene) -> bool {
-    scene.particles.as_ref().is_some_and(|p| p.plane)
 }
 
 /// Checks that nothing moves a block out of the plane of a plane flow or turns it about another axis than y.

@@ -1,0 +1,321 @@
+//! Warnings about water that particles resolve poorly.
+
+use super::{Gap, gaps::gaps};
+use crate::{
+    Result,
+    geometry::{Form, min_max},
+    rock::{Block, Blocks, Motion, broadphase::HostBroadphase, formula_values},
+    scene::{
+        Advice, ProbePlace, Scene, Warning,
+        build::{BlockSetup, particle_lattice, scene_step, water_bodies},
+    },
+    sph::{ConvexPart, Scheme, Setup, Side, SpeedEstimate, water_volume},
+};
+use glam::DVec3;
+
+/// Least number of particles over the depth that resolves waves and pressure: at 25 a standing wave loses a few percent of
+/// its height per period.
+const MIN_DEPTH_PARTICLES: f64 = 10.0;
+
+/// Tolerated relative difference between the mass of the particles and that of the bodies of water.
+const MASS_TOLERANCE: f64 = 0.01;
+
+/// Ratio of the long-wave speed to the largest expected speed above which still water is 4 % denser at its bottom.
+const MAX_WAVE_SPEED_RATIO: f64 = 2.0;
+
+/// Tolerated ratio of the fall speed of a block to the largest expected speed. The fall speed is an upper bound, which
+/// friction and water reduce.
+const FALL_SPEED_RATIO: f64 = 1.5;
+
+/// Difference of the size of a tank from a whole number of spacings from which its water starts too far from the wall, or too near.
+const WALL_TOLERANCE: f64 = 0.05;
+
+/// Warnings about the water of `scene` with the particle setup `setup`: `positions` (m) are the initial positions of the
+/// particles, `state` the initial state of `blocks`.
+///
+/// # Errors
+/// [`crate::Error::Scene`] if a body of water has an invalid shape; errors of the search for gaps.
+pub async fn particle_advice(
+    scene: &Scene,
+    blocks: &BlockSetup,
+    state: &Blocks,
+    setup: &Setup,
+    positions: &[DVec3],
+) -> Result<Advice> {
+    let mut advice = Advice::new();
+    let mut warn = |place: String, message: String| advice.push(Warning { place, message });
+    let spacing = setup.spacing;
+    if let Some(up) = (-setup.gravity).try_normalize() {
+        let [low, high] = min_max(positions.iter().map(|x| up.dot(*x)));
+        // At the start the water is compressed by its weight.
+        let particles = ((high - low) / spacing).round() + 1.0;
+        if particles < MIN_DEPTH_PARTICLES {
+            warn(
+                "particles.spacing".into(),
+                format!(
+                    "the water is {particles:.0} particles deep, and waves need {MIN_DEPTH_PARTICLES} at least; use a spacing of \
+                     {:.2e} m",
+                    spacing * particles / MIN_DEPTH_PARTICLES
+                ),
+            );
+        }
+    }
+    check_mass(scene, blocks, setup, positions.len(), &mut warn)?;
+    check_walls(setup, positions, &mut warn);
+    check_support(scene, blocks, setup, &mut warn);
+    check_speeds(scene, blocks, setup, positions, &mut warn);
+    check_probes(scene, blocks, setup, positions, &mut warn);
+    let free = || {
+        let all = blocks.setup.blocks.iter();
+        all.filter(|block| block.motion == Motion::Free)
+    };
+    let gravity = DVec3::from(scene.rock.gravity);
+    if free().next().is_some() && gravity.distance(setup.gravity) > 1e-6 * gravity.length() {
+        warn(
+            "fluid.acceleration".into(),
+            format!(
+                "is {} m/s² for the water, and rock.gravity is {gravity} m/s² for the blocks; buoyancy is wrong unless \
+                 they are equal",
+                setup.gravity
+            ),
+        );
+    }
+    let support = f64::from(setup.layers()) * spacing;
+    let thin = |block: &Block, form: &Form| match form {
+        Form::Sphere { radius } => 2.0 * radius < support,
+        Form::Convex(part) => part.faces().iter().any(|face| {
+            // The ends of a prism in a planar scene do not touch water.
+            let is_end = setup.plane && (block.rotation * face.normal).y.abs() > 0.5;
+            2.0 * face.distance < support && !is_end
+        }),
+    };
+    let thin = free().filter(|block| {
+        let mut parts = block.shape.parts().iter();
+        parts.all(|part| thin(block, &part.form))
+    });
+    let names: Vec<&str> = thin.map(|block| block.name.as_str()).collect();
+    if let Some(first) = names.first() {
+        warn(
+            "particles.spacing".into(),
+            format!(
+                "{} blocks, `{first}` the first, are thinner than the {support:.2e} m of the kernel support, so water interacts \
+                 across them; use a smaller spacing",
+                names.len()
+            ),
+        );
+    }
+    let mut broadphase = HostBroadphase;
+    let width = 2.0 * spacing;
+    let mut narrow = gaps(
+        &blocks.setup,
+        state,
+        blocks.in_fluid,
+        width,
+        &mut broadphase,
+    )
+    .await?;
+    narrow.retain(|gap| !gap.is_closed(spacing));
+    let least = |a: &&Gap, b: &&Gap| a.width.total_cmp(&b.width);
+    if let Some(narrowest) = narrow.iter().min_by(least) {
+        let [first, second] = narrowest
+            .blocks
+            .map(|block| blocks.setup.blocks[block].name.as_str());
+        warn(
+            "particles.spacing".into(),
+            format!(
+                "gaps between blocks narrower than two spacings: {}, the narrowest of {:.2e} m between `{first}` and \
+                 `{second}`: they hold one layer of particles at most, and none below half a spacing; close them, or use \
+                 a smaller spacing",
+                narrow.len(),
+                narrowest.width
+            ),
+        );
+    }
+    Ok(advice)
+}
+
+/// Warns if the mass of the particles differs from that of the bodies of water.
+fn check_mass(
+    scene: &Scene,
+    blocks: &BlockSetup,
+    setup: &Setup,
+    particles: usize,
+    warn: &mut impl FnMut(String, String),
+) -> Result<()> {
+    let volume = water_volume(
+        &particle_lattice(scene)?,
+        &water_bodies(scene)?,
+        &blocks.setup.blocks,
+    );
+    let expected = setup.density * volume;
+    let mass = setup.particle_mass() * particles as f64;
+    if (mass / expected - 1.0).abs() > MASS_TOLERANCE {
+        warn(
+            "particles.spacing".into(),
+            format!(
+                "the particles are {mass:.4} kg of water, and its bodies hold {expected:.4} kg outside the blocks; place the \
+                 sides of water and blocks at whole numbers of spacings from the lower corner of the domain, or use \
+                 a smaller spacing"
+            ),
+        );
+    }
+    Ok(())
+}
+
+/// Warns if the last particles before a wall are not half a spacing from it.
+fn check_walls(setup: &Setup, positions: &[DVec3], warn: &mut impl FnMut(String, String)) {
+    for axis in (0..3).filter(|&axis| !(setup.plane && axis == 1)) {
+        if setup.faces[axis][0] == Side::Periodic {
+            continue;
+        }
+        let (size, spacing) = (setup.size[axis], setup.spacing);
+        let end = setup.origin[axis] + size;
+        let last = min_max(positions.iter().map(|x| x[axis]))[1];
+        let count = size / spacing;
+        let apart = (count - count.round()).abs();
+        if apart > WALL_TOLERANCE
+            && end - last < 1.5 * spacing
+            && setup.faces[axis][1] != Side::Open
+        {
+            warn(
+                format!("domain.size[{axis}]"),
+                format!(
+                    "{size} m are {count:.2} particles: the water starts {:.2} of a spacing from the upper wall instead of half of \
+                     one, and sloshes; use {:.4} or {:.4} m, or a spacing that divides the size",
+                    (end - last) / spacing,
+                    count.floor() * spacing,
+                    count.ceil() * spacing
+                ),
+            );
+        }
+    }
+}
+
+/// Warns if nothing supports the water against gravity.
+fn check_support(
+    scene: &Scene,
+    blocks: &BlockSetup,
+    setup: &Setup,
+    warn: &mut impl FnMut(String, String),
+) {
+    let falls = |axis: usize| setup.faces[axis][0] == Side::Periodic || setup.gravity[axis] == 0.0;
+    // Walls follow the blocks and solids in the list.
+    let supports = blocks
+        .setup
+        .blocks
+        .iter()
+        .take(blocks.in_fluid + scene.solids.len());
+    let mut supports = supports.filter(|block| block.motion != Motion::Free);
+    if setup.gravity != DVec3::ZERO && (0..3).all(falls) && supports.next().is_none() {
+        warn(
+            "boundaries".into(),
+            format!(
+                "gravity, {} m/s², acts along periodic axes, and no block opposes it: the water falls for ever; give the \
+                 lower face kind = \"wall\", or add a bed below the water",
+                formula_values(&scene.fluid.acceleration, 0.0)
+            ),
+        );
+    }
+}
+
+/// Warns if the water or a block is too fast, or the water too deep, for the speed of sound.
+fn check_speeds(
+    scene: &Scene,
+    blocks: &BlockSetup,
+    setup: &Setup,
+    positions: &[DVec3],
+    warn: &mut impl FnMut(String, String),
+) {
+    let expected = setup.largest_speed();
+    let length = scene.run.length(scene_step(scene, setup.acoustic_step()));
+    let speeds = SpeedEstimate::new(positions, setup.spacing, setup.gravity).over(length);
+    let wave_speed = speeds.of_water() / std::f64::consts::SQRT_2;
+    if setup.scheme == Scheme::Delta && wave_speed > MAX_WAVE_SPEED_RATIO * expected {
+        let compression = (wave_speed / setup.sound_speed).powi(2);
+        warn(
+            "particles.largest_speed".into(),
+            format!(
+                "is {expected:.3} m/s for the speed of sound, and the water is so deep that at rest it would be {:.0} % \
+                 denser at its bottom; give {:.3} m/s",
+                100.0 * compression,
+                speeds.of_water()
+            ),
+        );
+    }
+    let fastest = |free: bool| {
+        let all = blocks.setup.blocks.iter();
+        let all = all.filter(|block| (block.motion == Motion::Free) == free);
+        let all = all.map(|block| (speeds.of_block(block), block.name.as_str()));
+        all.max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    for (free, ratio, verb) in [
+        (false, 1.0, "is driven at"),
+        (true, FALL_SPEED_RATIO, "may fall at"),
+    ] {
+        let too_fast = fastest(free).filter(|(speed, _)| *speed > 1.001 * ratio * expected);
+        if let Some((speed, name)) = too_fast {
+            warn(
+                "particles.largest_speed".into(),
+                format!(
+                    "is {expected:.3} m/s for the speed of sound, and block `{name}` {verb} up to {speed:.3} m/s, Mach \
+                     {:.2}: its impact compresses the water; give {speed:.3} m/s",
+                    speed / setup.sound_speed
+                ),
+            );
+        }
+    }
+}
+
+/// Warns about probes that water cannot reach.
+fn check_probes(
+    scene: &Scene,
+    blocks: &BlockSetup,
+    setup: &Setup,
+    positions: &[DVec3],
+    warn: &mut impl FnMut(String, String),
+) {
+    let fixed = blocks.setup.blocks.iter();
+    let fixed = fixed.filter(|block| block.motion == Motion::Fixed);
+    let fixed: Vec<(&str, ConvexPart<'_>)> = fixed
+        .flat_map(|block| {
+            ConvexPart::of_block(block)
+                .into_iter()
+                .map(|part| (block.name.as_str(), part))
+        })
+        .collect();
+    let inside = |x: DVec3| {
+        let found = fixed.iter().find(|(_, part)| part.depth(x) > 0.0);
+        found.map(|(name, _)| *name)
+    };
+    let [low, high] = min_max(positions.iter().map(|x| x.z));
+    for (index, probe) in scene.probes.iter().enumerate() {
+        let block = match &probe.place {
+            ProbePlace::Point { at } => inside(DVec3::from(*at)),
+            // Half a spacing in front of its wall.
+            ProbePlace::Sensor { at, normal, .. } => {
+                let outward = DVec3::AXES[normal.axis().index()] * f64::from(normal.sign());
+                inside(DVec3::from(*at) + 0.5 * setup.spacing * outward)
+            }
+            // The whole column up to the top of the water.
+            ProbePlace::Gauge { at: [x, y] } => {
+                let count = ((high - low) / setup.spacing).ceil() as u32;
+                let column = (0..=count).map(|n| {
+                    let z = low + f64::from(n) * setup.spacing;
+                    inside(DVec3::new(*x, *y, z.min(high)))
+                });
+                let column: Option<Vec<&str>> = column.collect();
+                column.and_then(|names| names.first().copied())
+            }
+            _ => None,
+        };
+        if let Some(block) = block {
+            warn(
+                format!("probes[{index}].at"),
+                format!(
+                    "`{}` is inside block `{block}`, which water cannot reach; move the probe",
+                    probe.name
+                ),
+            );
+        }
+    }
+}

@@ -1,7 +1,8 @@
 //! Static solids at the exact position of their surface, next to blocks; blocks on terrain.
 
+use crate::probed_at_end;
 use kit::{Rig, assert_near};
-use riprap::{scene::Scene, simulation::probe::Gauge};
+use riprap::scene::Scene;
 use std::{fs, path::PathBuf};
 
 /// Flow through a periodic channel over a bed 0.24 m high and past a block just above it, so that both share cells.
@@ -148,14 +149,8 @@ fn a_stream_over_an_exact_bed_leaves_by_an_outlet() {
         "#,
     )
     .unwrap();
-    let mut simulation = rig.simulation(&scene).unwrap();
-    let steps = scene.run.count(simulation.time_step());
-    rig.wait(simulation.advance(steps)).unwrap();
-    let gauge = Gauge::new(&scene, simulation.solid(), &scene.probes[0]).unwrap();
-    let read = simulation.read(gauge.fields(), gauge.cells());
-    let row = gauge.rows(&rig.wait(read).unwrap()).unwrap().remove(0);
-    let mean = |name: &str| row[gauge.columns().iter().position(|c| c == name).unwrap()];
+    let found = probed_at_end(&rig, &scene);
     // A dynamic pressure is 180 Pa.
-    assert_near(mean("pressure_mean"), 0.0, 180.0);
-    assert_near(mean("velocity_x_mean"), 0.58, 0.03);
+    assert_near(found["pressure_mean"], 0.0, 180.0);
+    assert_near(found["velocity_x_mean"], 0.58, 0.03);
 }

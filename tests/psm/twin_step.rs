@@ -343,9 +343,11 @@ fn friction_of_blocks() {
                 assert!(populations.max(forces) < limit(&setup), "{name}");
                 assert_equal_faces(&name, &subject);
             }
-            assert_restarts(&mut subject, |again| {
-                again.fill_with(&bricks, |cell| plate([13, 16], first, cell));
-            });
+            if nu == 1e-6 {
+                assert_restarts(&mut subject, |again| {
+                    again.fill_with(&bricks, |cell| plate([13, 16], first, cell));
+                });
+            }
         }
     }
 }
@@ -414,9 +416,11 @@ fn friction_of_sloping_faces() {
                 );
                 assert_equal_faces(&name, &subject);
             }
-            assert_restarts(&mut subject, |again| {
-                again.fill_with(&bricks, |cell| slab(cells, cell));
-            });
+            if nu == 1e-6 {
+                assert_restarts(&mut subject, |again| {
+                    again.fill_with(&bricks, |cell| slab(cells, cell));
+                });
+            }
         }
     }
 }
@@ -521,7 +525,7 @@ fn friction_of_exact_surfaces() {
                     expected.len()
                 );
             }
-            if with_block {
+            if nu == 1e-6 {
                 assert_restarts(&mut subject, put);
             }
         }

@@ -51,6 +51,78 @@ fn a_block_above_a_static_bed_bears_what_it_bears_above_a_block() {
     assert_near(solid.torque().y / block.torque().y, 1.0, 0.03);
 }
 
+/// The cells that a rough bed cuts take their momentum from the flow above: the stress does not drive them backwards.
+#[test]
+fn a_bed_nearly_along_the_grid_slows_the_whole_stream() {
+    let rig = Rig::new();
+    for slope in [0.0, 0.05] {
+        let scene = kit::scene::read(&format!(
+            r#"
+            domain = {{ size = [0.16, 0.16, 0.26], cell = 0.02 }}
+            fluid = {{ viscosity = 1e-6, acceleration = [0.02, 0, 0] }}
+            numerics = {{ eddy_viscosity = "wale", wall_model = "werner_wengle", velocity_scale = 1.3, mach = 0.08 }}
+            initial.velocity = ["0.154 * log(1 + 15000 * max(0, z - 0.07))", 0, 0]
+            run.duration = 3
+            [boundaries]
+            y_min = {{ kind = "free_slip" }}
+            y_max = {{ kind = "free_slip" }}
+            z_min = {{ kind = "wall" }}
+            z_max = {{ kind = "free_slip" }}
+            [[solids]]
+            kind = "half_space"
+            point = [0, 0.08, 0.07]
+            normal = [0, {slope}, 1]
+            surface = "exact"
+            roughness = 0.002
+            [[probes]]
+            name = "cut"
+            kind = "box"
+            min = [0, 0, 0.06]
+            max = [0.16, 0.16, 0.08]
+            fields = ["velocity"]
+            "#
+        ))
+        .unwrap();
+        let least = probed_at_end(&rig, &scene)["velocity_x_min"];
+        assert!(least > -0.05, "slope {slope}: {least}");
+    }
+}
+
+/// The links at the edge between a velocity face and solids belong to the face.
+#[test]
+fn an_inlet_between_solids_has_its_flow() {
+    let rig = Rig::new();
+    let solid = |sides: &str| format!("[[solids]]\nkind = \"box\"\n{sides}\n");
+    let scene = kit::scene::read(&format!(
+        r#"
+        domain = {{ size = [0.16, 0.14, 0.12], cell = 0.02 }}
+        fluid.viscosity = 5e-3
+        numerics = {{ velocity_scale = 1.1, mach = 0.05 }}
+        run.duration = 1
+        [boundaries]
+        x_min = {{ kind = "velocity", velocity = [0.5, 0, 0] }}
+        x_max = {{ kind = "pressure" }}
+        y_min = {{ kind = "wall" }}
+        y_max = {{ kind = "wall" }}
+        z_min = {{ kind = "free_slip" }}
+        z_max = {{ kind = "wall" }}
+        [[probes]]
+        name = "across"
+        kind = "box"
+        min = [0.06, 0, 0]
+        max = [0.08, 0.14, 0.12]
+        fields = ["velocity"]
+        {}{}{}
+        "#,
+        solid("min = [-1, -1, -1]\nmax = [1, 0.02, 1]"),
+        solid("min = [-1, 0.12, -1]\nmax = [1, 1, 1]"),
+        solid("min = [-1, -1, 0.1]\nmax = [1, 1, 1]"),
+    ))
+    .unwrap();
+    let mean = probed_at_end(&rig, &scene)["velocity_x_mean"];
+    assert_near(mean / 0.5, 1.0, 0.01);
+}
+
 /// Over the edges between the triangles of a terrain as over a single plane: v = g (sin 30° − tan 20° cos 30°) t.
 #[test]
 fn a_block_slides_over_terrain_as_over_a_plane() {

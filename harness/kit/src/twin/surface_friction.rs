@@ -90,10 +90,18 @@ impl Twin {
         let mut nearest: HashMap<usize, (f64, f64)> = HashMap::new();
         for (_, face) in self.faces_at_rest(true) {
             for &(cell, y) in face.above.iter().filter(|_| face.top) {
-                if y < 4.5 && (y > 1.0 || (y > 0.0 && self.at_rest(cell) == 0.0)) {
-                    let found = (y, face.viscosity_at(y));
+                let fraction = self.at_rest(cell);
+                let mut height = y;
+                if fraction > 0.0 && y <= 1.0 {
+                    if face.normal[face.axis].abs() <= 0.992 {
+                        continue;
+                    }
+                    height = y.max(0.25).max((1.0 - fraction) / 2.0);
+                }
+                if height > 0.0 && height < 4.5 {
+                    let found = (height, face.viscosity_at(height));
                     let kept = nearest.entry(cell).or_insert(found);
-                    if y < kept.0 {
+                    if height < kept.0 {
                         *kept = found;
                     }
                 }

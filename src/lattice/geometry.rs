@@ -419,8 +419,8 @@ impl Survey<'_> {
         self.padded_index(if fluid { inner } else { cell })
     }
 
-    /// Target of direction `q`. If it crosses several faces, the first of solid, velocity, wall, moving wall, pressure or outflow,
-    /// free slip applies: so the flow through a velocity face between walls is exact.
+    /// Target of direction `q`. If it crosses several faces, the first of velocity, solid, wall, moving wall, pressure or outflow,
+    /// free slip applies: so the flow through a velocity face between walls or solids is exact.
     pub(super) fn beyond(&self, cell: [u32; 3], q: usize) -> Beyond {
         let mut to = cell;
         let mut crossed = [None; 3];
@@ -436,7 +436,11 @@ impl Survey<'_> {
         // A solid next to the face continues beyond it.
         let nearest = [0, 1, 2].map(|a| if crossed[a].is_some() { cell[a] } else { to[a] });
         if self.is_solid(nearest) {
-            return Beyond::Wall;
+            let is_inlet = |axis: &usize| {
+                let side = crossed[*axis];
+                side.is_some_and(|side| matches!(self.setup.faces[*axis][side], Face::Velocity(_)))
+            };
+            return (0..3).find(is_inlet).map_or(Beyond::Wall, Beyond::Moving);
         }
         let mut found = Beyond::Fluid;
         let mut best = 0;

@@ -108,19 +108,20 @@ impl Domain {
 
     /// The link that leaves a fluid cell in direction `i`.
     ///
-    /// Where several boundaries meet, this order decides: solid, velocity face, wall at rest, moving wall, free slip;
+    /// Where several boundaries meet, this order decides: velocity face, solid, wall at rest, moving wall, free slip;
     /// between two of a kind the one on the lower axis.
-    /// A link that leaves the domain along a solid, so that it meets the edge between the two, counts as meeting the solid.
+    /// A link that leaves the domain along a solid, so that it meets the edge between the two, counts as meeting both.
     pub fn link(&self, cell: usize, i: usize) -> Link {
         let position = self.position(cell);
         let (beside, crossed) = self.walk(position, C[i]);
         let neighbour = self.index(beside);
-        if self.solid[neighbour] {
-            return Link::Bounce;
-        }
         let decisive = (0..3)
             .filter_map(|axis| crossed[axis])
             .min_by_key(|&face| rank(&self.faces[face]));
+        let inlet = decisive.filter(|&face| matches!(self.faces[face], Face::Velocity(_)));
+        if self.solid[neighbour] && inlet.is_none() {
+            return Link::Bounce;
+        }
         let Some(face) = decisive else {
             return Link::Fluid(neighbour);
         };

@@ -6,10 +6,10 @@ use crate::{
     geometry::{Form, min_max},
     rock::{Block, Blocks, Motion, broadphase::HostBroadphase, formula_values},
     scene::{
-        Advice, ProbePlace, Scene, Warning,
+        Advice, Probe, ProbePlace, Scene, Warning,
         build::{BlockSetup, particle_lattice, scene_step, water_bodies},
     },
-    sph::{ConvexPart, Scheme, Setup, Side, SpeedEstimate, water_volume},
+    sph::{ConvexPart, Scheme, Setup, Side, SpeedEstimate, is_reached, water_volume},
 };
 use glam::DVec3;
 
@@ -287,14 +287,17 @@ fn check_probes(
         let found = fixed.iter().find(|(_, part)| part.depth(x) > 0.0);
         found.map(|(name, _)| *name)
     };
+    let solids: Vec<_> = fixed.iter().map(|(_, part)| part.clone()).collect();
     let [low, high] = min_max(positions.iter().map(|x| x.z));
     for (index, probe) in scene.probes.iter().enumerate() {
+        if let Some(message) = sensor_fault(probe, &solids, setup) {
+            warn(format!("probes[{index}].at"), message);
+        }
         let block = match &probe.place {
             ProbePlace::Point { at } => inside(DVec3::from(*at)),
             // Half a spacing in front of its wall.
             ProbePlace::Sensor { at, normal, .. } => {
-                let outward = DVec3::AXES[normal.axis().index()] * f64::from(normal.sign());
-                inside(DVec3::from(*at) + 0.5 * setup.spacing * outward)
+                inside(DVec3::from(*at) + 0.5 * setup.spacing * normal.vector())
             }
             // The whole column up to the top of the water.
             ProbePlace::Gauge { at: [x, y] } => {
@@ -318,4 +321,34 @@ fn check_probes(
             );
         }
     }
+}
+
+/// What is wrong with the place of a sensor, if anything. `solids`: the fixed blocks.
+fn sensor_fault(probe: &Probe, solids: &[ConvexPart<'_>], setup: &Setup) -> Option<String> {
+    let ProbePlace::Sensor { at, normal, .. } = &probe.place else {
+        return None;
+    };
+    let (name, outward) = (&probe.name, normal.vector());
+    let behind = DVec3::from(*at) - 0.5 * setup.spacing * outward;
+    let tolerance = 1e-6 * setup.spacing;
+    let on_wall = !is_reached(setup, &[], behind, DVec3::ZERO)
+        || solids.iter().any(|part| part.depth(behind) > -tolerance);
+    if !on_wall {
+        return Some(format!(
+            "sensor `{name}` is not on a wall of the domain or a fixed block, and shows the pressure of the water around \
+             it in part; move it, or use a point probe, or the probe of a free block"
+        ));
+    }
+    let patch = probe.place.patch(setup.spacing, setup.plane);
+    let reached = patch
+        .iter()
+        .filter(|position| is_reached(setup, solids, **position, outward));
+    let left_out = patch.len() - reached.count();
+    (left_out > 0 && left_out < patch.len()).then(|| {
+        format!(
+            "{:.0} % of the patch of sensor `{name}` is inside fixed blocks or outside the domain, and is left out of its \
+             mean; if the face is oblique to the patch, the rest is in front of it: give a smaller `size`",
+            100.0 * left_out as f64 / patch.len() as f64
+        )
+    })
 }

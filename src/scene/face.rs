@@ -1,5 +1,6 @@
 //! Axes and the six faces of the domain.
 
+use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -71,6 +72,11 @@ impl Direction {
     /// Its name in a scene: `-x`, `+x`, ….
     pub fn name(self) -> &'static str {
         ["-x", "+x", "-y", "+y", "-z", "+z"][self as usize]
+    }
+
+    /// Unit vector.
+    pub fn vector(self) -> DVec3 {
+        DVec3::AXES[self.axis().index()] * f64::from(self.sign())
     }
 
     /// −1 or 1 along [`Self::axis`].

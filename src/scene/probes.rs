@@ -1,5 +1,6 @@
 //! Probes: measurements of the flow and of blocks.
 
+use glam::DVec3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::de::DeTable;
@@ -112,7 +113,7 @@ pub enum ProbePlace {
     },
     /// A sensor on a wall or a fixed block next to particles: the mean `pressure` on a square patch over the last time step
     /// (Pa), and its `impulse` since the start (Pa s), from which the mean over any time follows. Both are 0 where there is no
-    /// water.
+    /// water. Parts of the patch in fixed blocks or outside the domain do not count.
     Sensor {
         /// Centre of the patch, m.
         at: [f64; 3],
@@ -145,6 +146,32 @@ impl ProbePlace {
         ("sensor", "at normal", "size"),
         ("run_up", "min max direction", ""),
     ];
+
+    /// Centres of the squares of a `sensor`, none larger than `spacing` (m), m; in a `plane` scene one square along y. Empty
+    /// for other kinds.
+    pub fn patch(&self, spacing: f64, plane: bool) -> Vec<DVec3> {
+        let Self::Sensor { at, normal, size } = self else {
+            return Vec::new();
+        };
+        let size = size.unwrap_or(spacing);
+        let along = |turn: usize| -> Vec<DVec3> {
+            let axis = (normal.axis().index() + turn) % 3;
+            let count = match plane && axis == 1 {
+                true => 1,
+                false => (size / spacing).ceil().max(1.0) as u32,
+            };
+            let offset = |n: u32| ((f64::from(n) + 0.5) / f64::from(count) - 0.5) * size;
+            (0..count).map(|n| DVec3::AXES[axis] * offset(n)).collect()
+        };
+        let (first, second) = (along(1), along(2));
+        let row = |a: &DVec3| {
+            second
+                .iter()
+                .map(|b| DVec3::from(*at) + *a + *b)
+                .collect::<Vec<_>>()
+        };
+        first.iter().flat_map(row).collect()
+    }
 
     /// The points of a line, each with its distance from the first, m; empty for other kinds.
     pub fn stations(&self) -> Vec<(f64, [f64; 3])> {

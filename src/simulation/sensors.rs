@@ -1,8 +1,9 @@
 //! Pressure sensors on walls in free water.
 
 use crate::{
-    scene::{ProbePlace, Scene},
-    sph::{Setup, Side},
+    rock::{Block, Motion},
+    scene::{Direction, ProbePlace, Scene},
+    sph::{ConvexPart, Setup, Side, is_reached},
 };
 use glam::DVec3;
 
@@ -32,24 +33,27 @@ pub(super) struct Sensors {
 }
 
 impl Sensors {
-    pub fn of(scene: &Scene, setup: &Setup) -> Self {
+    /// `blocks`: at the start.
+    pub fn of(scene: &Scene, setup: &Setup, blocks: &[Block]) -> Self {
         let mut sensors = Self {
             first: vec![0],
             ..Self::default()
         };
+        let fixed = blocks.iter().filter(|block| block.motion == Motion::Fixed);
+        let solids: Vec<_> = fixed.flat_map(ConvexPart::of_block).collect();
         for probe in &scene.probes {
-            let ProbePlace::Sensor { at, normal, size } = &probe.place else {
+            let ProbePlace::Sensor { at, normal, .. } = &probe.place else {
                 continue;
             };
-            let size = size.unwrap_or(setup.spacing);
-            let count = (size / setup.spacing).ceil().max(1.0);
-            let normal = normal.axis().index();
-            let patch = patch_centres(DVec3::from(*at), normal, size, count, setup.plane);
-            let [low, high] = [scene.domain.origin, scene.domain.end()].map(DVec3::from);
+            let mut patch = probe.place.patch(setup.spacing, setup.plane);
+            patch.retain(|position| is_reached(setup, &solids, *position, normal.vector()));
+            if patch.is_empty() {
+                patch.push((*at).into());
+            }
             sensors.names.push(probe.name.clone());
             let patch = patch.into_iter().map(|position| {
-                let position = position.clamp(low, high);
-                (position, free_fraction(setup, position, normal))
+                let free = free_fraction(setup, &solids, position, *normal);
+                (position, free)
             });
             sensors.probes.extend(patch);
             sensors.first.push(sensors.probes.len());
@@ -87,81 +91,50 @@ impl Sensors {
     }
 }
 
-/// Fraction of the kernel that water can cover around a position on a wall with the axis `normal`: one half, reduced near
-/// other walls of the domain, each of which counts separately.
-fn free_fraction(setup: &Setup, position: DVec3, normal: usize) -> f64 {
-    let low = position - setup.origin;
-    let high = setup.origin + setup.size - position;
-    let others = (0..3).filter(|&axis| axis != normal && !(setup.plane && axis == 1));
-    let free = |axis: usize| {
-        let ends = setup.faces[axis].iter().zip([low[axis], high[axis]]);
-        let behind = ends.filter(|(side, _)| matches!(side, Side::Wall));
-        let lost = behind.map(|(_, distance)| {
-            fraction_beyond(distance / (setup.smoothing * setup.spacing), setup.plane)
-        });
-        1.0 - lost.sum::<f64>()
+/// Points of the kernel per radius in [`free_fraction`].
+const POINTS: i32 = 12;
+
+/// Fraction of the kernel that water in front of a wall can cover at a position: one half, reduced by other walls of the domain
+/// and by fixed blocks.
+fn free_fraction(
+    setup: &Setup,
+    solids: &[ConvexPart<'_>],
+    position: DVec3,
+    normal: Direction,
+) -> f64 {
+    let kernel = setup.kernel();
+    let step = kernel.support() / f64::from(POINTS);
+    let [low, high] = [position - kernel.support(), position + kernel.support()];
+    let overlaps =
+        |part: &&ConvexPart<'_>| part.low.cmplt(high).all() && part.high.cmpgt(low).all();
+    let solids: Vec<_> = solids.iter().filter(overlaps).collect();
+    let range = |axis: usize| match setup.plane && axis == 1 {
+        true => vec![0.0],
+        false => (-POINTS..POINTS)
+            .map(|n| (f64::from(n) + 0.5) * step)
+            .collect::<Vec<_>>(),
     };
-    0.5 * others.map(free).product::<f64>()
+    let [x, y, z] = [0, 1, 2].map(range);
+    let row = |x: f64| y.iter().map(move |y| (x, *y));
+    let columns = x.iter().flat_map(|x| row(*x));
+    let offsets = columns.flat_map(|(x, y)| z.iter().map(move |z| DVec3::new(x, y, *z)));
+    let (mut front, mut free) = (0.0, 0.0);
+    for offset in offsets.filter(|offset| offset.dot(normal.vector()) > 0.0) {
+        let (weight, at) = (kernel.at(offset.length()), position + offset);
+        let depths = solids.iter().map(|part| part.depth(at));
+        let depth = depths.fold(depth_behind_walls(setup, at), f64::max);
+        front += weight;
+        free += weight * (0.5 - depth / step).clamp(0.0, 1.0);
+    }
+    0.5 * free / front
 }
 
-/// Fraction of Wendland's C2 kernel beyond a plane at the `distance` from its centre, in h: the cap (1 − distance/q)/2 of a
-/// sphere of radius q, in a `plane` the arc of a circle.
-fn fraction_beyond(distance: f64, plane: bool) -> f64 {
-    const RINGS: u32 = 256;
-    let rings = (0..RINGS).map(|n| (f64::from(n) + 0.5) * 2.0 / f64::from(RINGS));
-    let (mut whole, mut part) = (0.0, 0.0);
-    for q in rings {
-        let w = (1.0 - 0.5 * q).powi(4) * (2.0 * q + 1.0);
-        let (ring, cap) = if plane {
-            (w * q, (distance / q).min(1.0).acos() / std::f64::consts::PI)
-        } else {
-            (w * q * q, 0.5 * (1.0 - distance / q).max(0.0))
-        };
-        whole += ring;
-        part += ring * cap;
-    }
-    part / whole
-}
-
-/// Centres of the `count` × `count` squares of a square patch; a planar patch has one square along y.
-fn patch_centres(middle: DVec3, normal: usize, size: f64, count: f64, plane: bool) -> Vec<DVec3> {
-    let along = |axis: usize| -> Vec<DVec3> {
-        let is_planar_axis = plane && axis == 1;
-        let count = if is_planar_axis { 1 } else { count as u32 };
-        let offset = |n: u32| ((f64::from(n) + 0.5) / f64::from(count) - 0.5) * size;
-        (0..count).map(|n| DVec3::AXES[axis] * offset(n)).collect()
-    };
-    let [first, second] = [1, 2].map(|n| along((normal + n) % 3));
-    let row = |a: &DVec3| second.iter().map(|b| middle + *a + *b).collect::<Vec<_>>();
-    first.iter().flat_map(row).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{fraction_beyond, patch_centres};
-    use glam::DVec3;
-
-    #[test]
-    fn half_of_the_kernel_is_beyond_its_centre_and_none_beyond_its_end() {
-        for plane in [false, true] {
-            assert!((fraction_beyond(0.0, plane) - 0.5).abs() < 1e-12);
-            assert_eq!(fraction_beyond(2.0, plane), 0.0);
-            assert!((0.01..0.2).contains(&fraction_beyond(0.6, plane)));
-        }
-    }
-
-    #[test]
-    fn a_patch_has_its_centre_and_its_squares() {
-        let middle = DVec3::new(1.0, 2.0, 3.0);
-        for (normal, plane, count) in [(0, false, 9), (1, false, 9), (0, true, 3), (2, true, 3)] {
-            let centres = patch_centres(middle, normal, 0.3, 3.0, plane);
-            assert_eq!(centres.len(), count);
-            let mean = centres.iter().sum::<DVec3>() / count as f64;
-            assert!((mean - middle).length() < 1e-12, "{mean}");
-            for centre in centres {
-                assert_eq!(centre[normal], middle[normal]);
-                assert!((centre - middle).abs().max_element() < 0.1 + 1e-12);
-            }
-        }
-    }
+/// Distance of a point (m) behind the nearest wall of the domain; negative in front of it.
+fn depth_behind_walls(setup: &Setup, at: DVec3) -> f64 {
+    let (low, high) = (setup.origin - at, at - setup.origin - setup.size);
+    let sides = (0..3).flat_map(|axis| [0, 1].map(|side| (axis, side)));
+    sides
+        .filter(|(axis, side)| matches!(setup.faces[*axis][*side], Side::Wall))
+        .map(|(axis, side)| [low, high][side][axis])
+        .fold(f64::NEG_INFINITY, f64::max)
 }

@@ -150,7 +150,7 @@ impl SphFluid {
             queue: queue.clone(),
             joint_seal: JointSeal::new(shapes, rock.blocks().period(), setup, &loaded),
             longest: longest_exchange(&rock, setup.density * setup.sound_speed),
-            sensors: Sensors::of(scene, setup),
+            sensors: Sensors::of(scene, setup, blocks),
             particles,
             time: 0.0,
             average: scene.averages_loads(),

@@ -63,7 +63,7 @@ pub use probes::Interpolator;
 #[doc(hidden)]
 pub use program::{KERNELS, MAX_STORAGE_BUFFERS, constants, kernels_of, program};
 pub use setup::{Body, EquationOfState, NeighbourSearch, Scheme, Setup, Side, Wendland};
-pub(crate) use solid::ConvexPart;
+pub(crate) use solid::{ConvexPart, is_reached};
 pub use solid::{Faces, Solid};
 pub use solver::{ExchangeResult, ExternalWork, SphSolver, SphState};
 pub use speed_estimate::SpeedEstimate;

@@ -1,6 +1,6 @@
 //! Convex parts of bodies at their initial positions, with their faces classed as exposed or internal.
 
-use super::{layer_polygon::LayerPolygon, particle_lattice::ParticleLattice};
+use super::{Setup, layer_polygon::LayerPolygon, particle_lattice::ParticleLattice};
 use crate::{
     geometry::{Form, HalfSpace, Shape, bounding_box},
     rock::{Block, Motion},
@@ -236,6 +236,22 @@ pub(crate) struct ConvexPart<'a> {
     /// Corners of the bounding box, m.
     pub low: DVec3,
     pub high: DVec3,
+}
+
+/// Whether water can reach a position (m) of a surface with the unit normal `outward`: it is in the domain, and none of the
+/// solids contains the point a quarter of a spacing in front of it.
+pub(crate) fn is_reached(
+    setup: &Setup,
+    solids: &[ConvexPart<'_>],
+    at: DVec3,
+    outward: DVec3,
+) -> bool {
+    let tolerance = 1e-6 * setup.spacing;
+    let [low, high] = [setup.origin, setup.origin + setup.size];
+    let mut inside = at.cmpge(low - tolerance) & at.cmple(high + tolerance);
+    inside.set(1, inside.test(1) || setup.plane);
+    let front = at + 0.25 * setup.spacing * outward;
+    inside.all() && !solids.iter().any(|part| part.depth(front) > 0.0)
 }
 
 impl<'a> ConvexPart<'a> {

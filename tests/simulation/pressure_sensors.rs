@@ -50,6 +50,12 @@ fn water_at_rest_presses_by_its_depth() {
         at = [0.59, 0.05, 0]
         normal = "+z"
         [[probes]]
+        name = "over_the_edge"
+        kind = "sensor"
+        at = [0, 0.05, 0]
+        normal = "+x"
+        size = 0.08
+        [[probes]]
         name = "dry"
         kind = "sensor"
         at = [0, 0.05, 0.55]
@@ -59,7 +65,7 @@ fn water_at_rest_presses_by_its_depth() {
     );
     rig.wait(pool.advance(40)).unwrap();
     let pressure = |name: &str| pool.sensor(name).unwrap().pressure;
-    for (name, depth) in [("wall", 0.2), ("corner", 0.4)] {
+    for (name, depth) in [("wall", 0.2), ("corner", 0.4), ("over_the_edge", 0.38)] {
         let (found, expected) = (pressure(name), 9810.0 * depth);
         assert!(
             (found / expected - 1.0).abs() < 0.05,
@@ -70,6 +76,55 @@ fn water_at_rest_presses_by_its_depth() {
     }
     assert_eq!(pressure("dry"), 0.0);
     assert_eq!(pool.sensor("none"), None);
+}
+
+/// Solids reduce the part of the kernel that water can cover as walls of the domain do.
+#[test]
+fn a_modelled_bed_is_as_good_as_a_wall() {
+    let rig = Rig::new();
+    let mut pool = pool(
+        &rig,
+        r#"
+        [domain]
+        size = [0.6, 0.1, 0.6]
+        [particles]
+        spacing = 0.02
+        plane = true
+        [[materials]]
+        name = "rock"
+        density = 2650
+        normal_stiffness = 1e9
+        friction = 30
+        [[solids]]
+        kind = "box"
+        min = [0, 0, 0]
+        max = [0.6, 0.1, 0.1]
+        [[blocks]]
+        name = "wall"
+        kind = "box"
+        size = [0.1, 0.1, 0.5]
+        position = [0.55, 0.05, 0.35]
+        motion = "fixed"
+        [[water]]
+        kind = "box"
+        size = [0.5, 0.1, 0.4]
+        position = [0.25, 0.05, 0.3]
+        [[probes]]
+        name = "domain"
+        kind = "sensor"
+        at = [0, 0.05, 0.11]
+        normal = "+x"
+        [[probes]]
+        name = "block"
+        kind = "sensor"
+        at = [0.5, 0.05, 0.11]
+        normal = "-x"
+    "#,
+    );
+    rig.wait(pool.advance(40)).unwrap();
+    for name in ["domain", "block"] {
+        assert_relative(pool.sensor(name).unwrap().pressure, 9810.0 * 0.39, 0.05);
+    }
 }
 
 const DAM: &str = r#"

@@ -107,6 +107,28 @@ fn prisms_in_a_planar_scene_may_be_as_thin_as_it() {
     }
 }
 
+/// A sensor belongs on a wall or a fixed block, where water reaches all of its patch.
+#[test]
+fn sensors_that_measure_no_wall_are_named() {
+    let dam = "size = [0.5, 1, 0.5]\nposition = [1, 0.5, 0.25]";
+    for (motion, at, size, words) in [
+        ("fixed", "[0.75, 0.5, 0.25]", 0.1, ""),
+        ("fixed", "[0.75, 0.5, 0]", 0.1, "50 % of the patch"),
+        ("fixed", "[0.5, 0.5, 0.25]", 0.1, "not on a wall"),
+        ("free", "[0.75, 0.5, 0.25]", 0.1, "not on a wall"),
+    ] {
+        let found = tank_with(&format!(
+            "{}motion = \"{motion}\"\n[[probes]]\nname = \"s\"\nkind = \"sensor\"\nat = {at}\nnormal = \"-x\"\nsize = {size}\n",
+            block(dam)
+        ));
+        let found = found.into_iter().find(|w| w.contains("probes[0]"));
+        match words {
+            "" => assert_eq!(found, None),
+            words => assert_contains(&found.unwrap(), &[words]),
+        }
+    }
+}
+
 /// A driven block in the tank with the largest expected speed.
 fn driven(velocity: &str, largest_speed: f64) -> Scene {
     let keys = format!(

@@ -294,6 +294,13 @@ impl Scene {
             finite(format!("{key}.position"), &water.position)?;
             water.rotation.check(&format!("{key}.rotation"))?;
             finite(format!("{key}.velocity"), &water.velocity)?;
+            if self.is_plane() && water.velocity[1] != 0.0 {
+                return refuse(
+                    format!("{key}.velocity"),
+                    "has a component along y, along which nothing moves in a plane scene (particles.plane); set it to 0, or \
+                     remove plane",
+                );
+            }
         }
         for (axis, formula) in self.fluid.acceleration.iter().enumerate() {
             if !formula.is_constant() {

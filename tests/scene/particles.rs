@@ -249,3 +249,31 @@ fn a_gauge_across_gravity_has_a_warning() {
     assert_eq!(found.len(), 1);
     assert_eq!(found[0].place, "probes.level");
 }
+
+/// Nothing moves along y in a plane scene.
+#[test]
+fn plane_scenes_refuse_what_moves_along_y() {
+    let rock = "[[materials]]\nname = \"rock\"\ndensity = 2600\nnormal_stiffness = 1e8\nfriction = 30\n\
+                youngs_modulus = 1e9\npoissons_ratio = 0.25\n\
+                [[blocks]]\nname = \"b\"\nkind = \"box\"\nsize = [1, 1, 0.5]\nposition = [3, 0.5, 0.25]\n";
+    let plane = |from: &str, to: &str, more: &str| {
+        let scene = TANK
+            .replace("spacing = 0.05", "spacing = 0.05\nplane = true")
+            .replace(from, to);
+        read(&format!("{scene}{rock}{more}")).and_then(|scene| block_setup(&scene))
+    };
+    assert!(plane("", "", "deformable = true").is_ok());
+    let run = "[run]";
+    let refusals = [
+        plane("[run]", "velocity = [1, 0.1, 0]\n[run]", ""),
+        plane(run, "[rock]\ngravity = [0, -1, -9.81]\n[run]", ""),
+        plane(run, run, "velocity = [0, 0.1, 0]"),
+        plane(
+            run,
+            run,
+            "deformable = true\ninitial_stress = [0, 0, 0, 1e5, 0, 0]",
+        ),
+    ];
+    let refusals = refusals.map(|found| found.unwrap_err().to_string());
+    insta::assert_snapshot!(refusals.join("\n"));
+}

@@ -11,7 +11,7 @@ pub(crate) use shapes::{rotation, shape};
 use crate::{
     Error, Result,
     formula::Formula,
-    rock::{Block, Guide, Motion, Period, Setup, Sleep},
+    rock::{Block, FixedPoint, Guide, Motion, Period, Setup, Sleep},
     scene::{Advice, Boundary, Face, ProbePlace, Scene},
 };
 use glam::{DVec2, DVec3, Vec3Swizzles};
@@ -100,6 +100,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
     check_domain(scene, &setup)?;
     if scene.is_plane() {
         check_plane(&setup)?;
+        keep_plane(&mut setup);
     }
     Ok(BlockSetup {
         setup,
@@ -138,8 +139,22 @@ fn check_plane(setup: &Setup) -> Result<()> {
             ),
         ))
     };
+    if setup.gravity.y != 0.0 {
+        return Err(Error::scene(
+            "rock.gravity",
+            "has a component along y, along which nothing moves in a plane scene (particles.plane); set it to 0, or remove \
+             plane",
+        ));
+    }
     let is_zero = |formula: &Formula| formula.constant() == Some(0.0);
     for block in &setup.blocks {
+        let stress = block
+            .deformable
+            .as_ref()
+            .map(|own| own.initial_stress.y_axis);
+        if stress.is_some_and(|stress| stress.xz() != DVec2::ZERO) {
+            return refuse(block, "its initial stress has components xy or yz");
+        }
         let (velocity, spin) = match &block.motion {
             Motion::Driven { velocity, spin } => (
                 is_zero(&velocity[1]),
@@ -177,6 +192,20 @@ fn check_plane(setup: &Setup) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Plane strain: nothing moves along y in the deformable blocks of a plane scene.
+fn keep_plane(setup: &mut Setup) {
+    for block in &mut setup.blocks {
+        let radius = block.shape.radius();
+        if let Some(deformable) = &mut block.deformable {
+            let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z].map(|point| FixedPoint {
+                point: radius * point,
+                axes: [false, true, false],
+            });
+            deformable.fixed_points.extend(points);
+        }
+    }
 }
 
 /// Similarity (Jaro–Winkler) from which one name counts as a misspelling of the other.

@@ -198,6 +198,8 @@ fn check_support(
     setup: &Setup,
     warn: &mut impl FnMut(String, String),
 ) {
+    // Walls brake a viscous flow.
+    let brakes = setup.laminar_viscosity > 0.0 && setup.faces.as_flattened().contains(&Side::Wall);
     let falls = |axis: usize| setup.faces[axis][0] == Side::Periodic || setup.gravity[axis] == 0.0;
     // Walls follow the blocks and solids in the list.
     let supports = blocks
@@ -206,7 +208,7 @@ fn check_support(
         .iter()
         .take(blocks.in_fluid + scene.solids.len());
     let mut supports = supports.filter(|block| block.motion != Motion::Free);
-    if setup.gravity != DVec3::ZERO && (0..3).all(falls) && supports.next().is_none() {
+    if !brakes && setup.gravity != DVec3::ZERO && (0..3).all(falls) && supports.next().is_none() {
         warn(
             "boundaries".into(),
             format!(
@@ -290,9 +292,6 @@ fn check_probes(
     let solids: Vec<_> = fixed.iter().map(|(_, part)| part.clone()).collect();
     let [low, high] = min_max(positions.iter().map(|x| x.z));
     for (index, probe) in scene.probes.iter().enumerate() {
-        if let Some(message) = sensor_fault(probe, &solids, setup) {
-            warn(format!("probes[{index}].at"), message);
-        }
         let block = match &probe.place {
             ProbePlace::Point { at } => inside(DVec3::from(*at)),
             // Half a spacing in front of its wall.
@@ -311,14 +310,15 @@ fn check_probes(
             }
             _ => None,
         };
-        if let Some(block) = block {
-            warn(
-                format!("probes[{index}].at"),
-                format!(
-                    "`{}` is inside block `{block}`, which water cannot reach; move the probe",
-                    probe.name
-                ),
-            );
+        let fault = match block {
+            Some(block) => Some(format!(
+                "`{}` is inside block `{block}`, which water cannot reach; move the probe",
+                probe.name
+            )),
+            None => sensor_fault(probe, &solids, setup),
+        };
+        if let Some(message) = fault {
+            warn(format!("probes[{index}].at"), message);
         }
     }
 }

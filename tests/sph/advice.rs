@@ -124,7 +124,7 @@ fn sensors_that_measure_no_wall_are_named() {
         let found = found.into_iter().find(|w| w.contains("probes[0]"));
         match words {
             "" => assert_eq!(found, None),
-            words => assert_contains(&found.unwrap(), &[words]),
+            words => assert_contains(found.unwrap(), &[words]),
         }
     }
 }

@@ -134,6 +134,33 @@ fn keep_scene(text: &str, path: &Path) -> Result<()> {
     Ok(())
 }
 
+/// Checks that the blocks of the scene `text` have the order of those of the checkpoint at `path`, by which they get their states.
+pub fn check_order(path: &Path, text: &str) -> Result<()> {
+    let blocks = |text: &str| -> Vec<String> {
+        let table = text.parse::<Table>().unwrap_or_default();
+        let blocks = table.get("blocks").and_then(Value::as_array);
+        let name = |block: &Value| block.get("name").and_then(Value::as_str).map(String::from);
+        let names = blocks.into_iter().flatten().map(name);
+        names.map(Option::unwrap_or_default).collect()
+    };
+    let before = blocks(&fs::read_to_string(beside(path)).unwrap_or_default());
+    for (number, name) in blocks(text)
+        .iter()
+        .enumerate()
+        .filter(|(_, name)| !name.is_empty())
+    {
+        let place = before.iter().position(|other| other == name);
+        if let Some(place) = place.filter(|place| *place != number) {
+            anyhow::bail!(
+                "blocks[{number}] is {name}, which was blocks[{place}] when {} was written, and states go to the blocks by \
+                 their order; restore the order",
+                path.display()
+            );
+        }
+    }
+    Ok(())
+}
+
 /// A warning if the scene `text` differs from that of the checkpoint at `path`, with the values that differ. `None` if
 /// there is no scene next to the checkpoint.
 pub fn other_scene(path: &Path, text: &str) -> Option<String> {
@@ -237,6 +264,10 @@ mod tests {
         assert_eq!(due(400_000, 30.0), due(400_000, 0.0));
     }
 
+    fn two_blocks(first: &str, second: &str) -> String {
+        format!("[[blocks]]\nname = '{first}'\n[[blocks]]\nname = '{second}'\n")
+    }
+
     fn found(before: &str, now: &str) -> String {
         let folder = tempfile::tempdir().expect("a folder to write to");
         let path = folder.path().join("checkpoint.riprap");
@@ -263,6 +294,16 @@ mod tests {
         );
         let two = found(before, &(before.to_owned() + "[[blocks]]\nname = 'c'\n"));
         assert!(two.contains("blocks had 1 entries and has 2"), "{two}");
+        let swapped = two_blocks("c", "b");
+        let folder = tempfile::tempdir().expect("a folder to write to");
+        let path = folder.path().join("checkpoint.riprap");
+        keep_scene(&two_blocks("b", "c"), &path).expect("a folder to write to");
+        let refused = check_order(&path, &swapped).unwrap_err().to_string();
+        assert!(
+            refused.starts_with("blocks[0] is c, which was blocks[1]"),
+            "{refused}"
+        );
+        assert!(check_order(&path, &two_blocks("b", "d")).is_ok());
         let gone = found(before, &before.replace("density = 1000\n", ""));
         assert!(gone.contains("fluid.density is gone"), "{gone}");
     }

@@ -136,6 +136,9 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
     let _locked = locked(&folder)?;
     let text = std::fs::read_to_string(&args.scene).unwrap_or_default();
     let restart = args.restart.as_deref();
+    if let Some(path) = restart {
+        checkpoints::check_order(path, &text)?;
+    }
     let mut runner = Runner::new(&mut run, &folder, last, restart, &text)?;
     if let Some(until) = args.until_error {
         runner.stop_at_error(until, &args.error_of, scene)?;

@@ -94,6 +94,11 @@ impl Key {
                     .get_mut(name)
                     .ok_or_else(|| self.wrong(format!("there is no `{name}`, but {has}")))
             }
+            // An entry by its name.
+            (Step::Name(name), Value::Array(array)) => array
+                .iter_mut()
+                .find(|entry| entry.get("name").and_then(Value::as_str) == Some(name))
+                .ok_or_else(|| self.wrong(format!("no entry is called `{name}`"))),
             (Step::Index(index), Value::Array(array)) => {
                 let count = array.len();
                 array
@@ -127,6 +132,7 @@ mod tests {
             [boundaries]
             x_min = { kind = "velocity", velocity = [1, 0.5, "1 - t"] }
             [[blocks]]
+            name = "b"
             position = [[0, 1], [2, 3]]
         "#;
         toml::from_str(text).unwrap()
@@ -143,6 +149,10 @@ mod tests {
         let changed = set("boundaries.x_min.velocity[0]").unwrap();
         let velocity = &changed["boundaries"]["x_min"]["velocity"];
         assert_eq!(velocity.as_array().unwrap()[0], Value::Float(7.5));
+        assert_eq!(
+            set("blocks.b.position[1][0]").unwrap(),
+            set("blocks[0].position[1][0]").unwrap()
+        );
         assert_eq!(velocity.as_array().unwrap()[1], Value::Float(0.5));
         let changed = set("blocks[0].position[1][0]").unwrap();
         let position = &changed["blocks"][0]["position"];
@@ -177,6 +187,7 @@ mod tests {
                 "neither a number nor a formula",
             ),
             ("boundaries.x_min.kind", "neither a number nor a formula"),
+            ("blocks.stone.position[0]", "no entry is called `stone`"),
             ("numerics.mach[0]", "type float has no [0]"),
             ("numerics.mach.x", "type float has no `x`"),
         ] {

@@ -29,8 +29,8 @@ use std::{
 pub struct Args {
     /// The scene, a TOML file
     pub scene: PathBuf,
-    /// Key of the number in the scene, such as `boundaries.x_min.velocity[0]`; several times for numbers that have the same
-    /// value. If the scene has a formula there, it is multiplied by the value: A, B and T are then factors
+    /// Key of the number in the scene, such as `boundaries.x_min.velocity[0]` or `materials.rock.friction`; several times for
+    /// numbers that have the same value. If the scene has a formula there, it is multiplied by the value: A, B and T are then factors
     #[arg(long, required = true, value_name = "KEY")]
     pub key: Vec<String>,
     /// Value at which no block moves

@@ -92,7 +92,9 @@ impl Sensors {
 }
 
 /// Points of the kernel per radius in [`free_fraction`].
-const POINTS: i32 = 12;
+const POINTS: i32 = 8;
+/// Least fraction: the inverse has to be finite.
+const LEAST_FRACTION: f64 = 1e-3;
 
 /// Fraction of the kernel that water in front of a wall can cover at a position: one half, reduced by other walls of the domain
 /// and by fixed blocks.
@@ -126,7 +128,7 @@ fn free_fraction(
         front += weight;
         free += weight * (0.5 - depth / step).clamp(0.0, 1.0);
     }
-    0.5 * free / front
+    (0.5 * free / front).max(LEAST_FRACTION)
 }
 
 /// Distance of a point (m) behind the nearest wall of the domain; negative in front of it.

@@ -313,6 +313,6 @@ pub(super) fn inlet_velocities<'a>(
 /// decides.
 pub(super) fn moving_side(cell: &MovingCell, axis: usize) -> Option<usize> {
     let through = cell.through[axis];
-    let low = (1..27).any(|q| through & (1 << q) != 0 && super::geometry::C[q][axis] < 0);
+    let low = (1..27).any(|q| through & (1 << q) != 0 && super::C[q][axis] < 0);
     (through != 0).then_some(usize::from(!low))
 }

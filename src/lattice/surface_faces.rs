@@ -3,7 +3,7 @@
 //! They do not move and are found once, in f64. [`super::block_friction`] finds those of blocks on the device whenever these have
 //! moved.
 
-use super::{C, Face, Grid, WallCell, geometry::Survey, wall_model::Walls};
+use super::{C, Face, Grid, WallCell, survey::Survey, wall_model::Walls};
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use std::collections::{HashMap, HashSet};

@@ -1,12 +1,13 @@
 //! Walls with the wall model: their cells, and the stress on them.
 
 use super::{
-    Grid, Lattice, Link, Setup,
+    C, Grid, Lattice, Link, Setup,
     boundary::cell_pass,
     buffers::storage,
     cell_kernels::CellDispatch,
+    directions::{direction, opposite},
     fluid::{Dispatch, in_plane},
-    geometry::{Beyond, C, Survey, direction, opposite},
+    survey::{Beyond, Survey},
 };
 use crate::{
     Result,

@@ -16,7 +16,7 @@ trap 'rm -f "$log"' EXIT
 filters=(
     "gpu lost_device:: memory:: timer::"
     "lattice divergence_guard::s kernels:: limits:: refusals::"
-    "psm combine_solids:: faces:: null_model:: reduce:: tile_search:: twin_step:: voxelise::"
+    "psm combine_solids:: faces:: null_model:: reduce:: tile_search:: twin_step:: voxelise:: wall_law::"
     "sph mueller:: refusals:: step::"
     "rock broadphase::"
     "coupling faults::"

@@ -16,3 +16,4 @@ mod tile_search;
 mod tiling;
 mod twin_step;
 mod voxelise;
+mod wall_law;

@@ -84,6 +84,7 @@ pub use numerics::{
     Collision, EddyViscosity, Equilibrium, Numerics, SolidOperator, SolidWeight, Storage, WallModel,
 };
 pub use output::{Field, History, Output, Quantity, Slice, SliceField};
+pub(crate) use particles::NOT_IN_PLANE;
 pub use particles::{EquationOfState, Particles, Scheme, Water};
 pub use probes::{Probe, ProbePlace};
 pub use renamed::{RENAMED_KEYS, RenamedKey, Renaming, migrate, renamed_keys};

@@ -10,6 +10,10 @@ use super::{
 };
 use crate::error::Result;
 
+/// Refusal of a vector out of the plane of a scene.
+pub(crate) const NOT_IN_PLANE: &str = "has a component along y, along which nothing moves in a plane scene \
+                                       (particles.plane); set it to 0, or remove plane";
+
 /// Settings of a fluid of particles (weakly compressible SPH). With this table the fluid has a free surface; its
 /// initial bodies are in `water`.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -295,11 +299,7 @@ impl Scene {
             water.rotation.check(&format!("{key}.rotation"))?;
             finite(format!("{key}.velocity"), &water.velocity)?;
             if self.is_plane() && water.velocity[1] != 0.0 {
-                return refuse(
-                    format!("{key}.velocity"),
-                    "has a component along y, along which nothing moves in a plane scene (particles.plane); set it to 0, or \
-                     remove plane",
-                );
+                return refuse(format!("{key}.velocity"), NOT_IN_PLANE);
             }
         }
         for (axis, formula) in self.fluid.acceleration.iter().enumerate() {

@@ -1,10 +1,11 @@
 //! Scenes of particles: their keys, and keys that they do not combine with.
 
+use riprap::rock::{Blocks, broadphase::HostBroadphase};
 use riprap::scene::build::block_setup;
 use riprap::scene::*;
 
 use crate::{CHANNEL, read, refused};
-use kit::assert_contains;
+use kit::{assert_contains, assert_near};
 
 /// A dam of water in a tank, open above, its sides periodic.
 pub const TANK: &str = r#"
@@ -276,4 +277,22 @@ fn plane_scenes_refuse_what_moves_along_y() {
     ];
     let refusals = refusals.map(|found| found.unwrap_err().to_string());
     insta::assert_snapshot!(refusals.join("\n"));
+}
+
+/// A free block with the initial stress s along x relaxes along x and z. In plane strain −ν s remains along y.
+#[test]
+fn deformable_blocks_of_plane_scenes_are_in_plane_strain() {
+    let scene = TANK.replace("spacing = 0.05", "spacing = 0.05\nplane = true")
+        + "[rock]\ngravity = [0, 0, 0]\nmass_damping = 200\n\
+           [[materials]]\nname = \"rock\"\ndensity = 2600\nnormal_stiffness = 1e8\nfriction = 30\n\
+           youngs_modulus = 1e8\npoissons_ratio = 0.25\n\
+           [[blocks]]\nname = \"b\"\nkind = \"box\"\nsize = [1, 1, 0.5]\nposition = [3, 0.5, 1]\n\
+           deformable = true\ninitial_stress = [1e4, 0, 0, 0, 0, 0]\n";
+    let setup = block_setup(&read(&scene).unwrap()).unwrap().setup;
+    let mut blocks = Blocks::new(setup).unwrap();
+    pollster::block_on(blocks.advance(&mut HostBroadphase, 0.2)).unwrap();
+    let stress = blocks.stress(0).unwrap();
+    for (axis, expected) in [0.0, -0.25e4, 0.0].into_iter().enumerate() {
+        assert_near(stress.col(axis)[axis], expected, 20.0);
+    }
 }

@@ -12,7 +12,7 @@ use crate::{
     Error, Result,
     formula::Formula,
     rock::{Block, FixedPoint, Guide, Motion, Period, Setup, Sleep},
-    scene::{Advice, Boundary, Face, ProbePlace, Scene},
+    scene::{Advice, Boundary, Face, NOT_IN_PLANE, ProbePlace, Scene},
 };
 use glam::{DVec2, DVec3, Vec3Swizzles};
 use std::collections::HashSet;
@@ -140,11 +140,7 @@ fn check_plane(setup: &Setup) -> Result<()> {
         ))
     };
     if setup.gravity.y != 0.0 {
-        return Err(Error::scene(
-            "rock.gravity",
-            "has a component along y, along which nothing moves in a plane scene (particles.plane); set it to 0, or remove \
-             plane",
-        ));
+        return Err(Error::scene("rock.gravity", NOT_IN_PLANE));
     }
     let is_zero = |formula: &Formula| formula.constant() == Some(0.0);
     for block in &setup.blocks {

@@ -5,7 +5,7 @@ use super::{
     body::State,
     contact_list::NO_CONTACT,
     deforming::{DeformingBlocks, RIGID, Strain, pose},
-    period::{Image, Periods},
+    period::{Image, Periods, moved},
     threads::{self, each_block},
 };
 #[cfg(doc)]
@@ -314,7 +314,10 @@ impl Blocks {
             .periods
             .as_ref()
             .map(|periods| self.part_images(periods));
-        let pairs = checked(pairs, images.as_deref(), block, &self.bodies)?;
+        let mut pairs = checked(pairs, images.as_deref(), block, &self.bodies)?;
+        if let Some(periods) = &self.periods {
+            self.drop_repeated(periods, &mut pairs);
+        }
         self.pairs = merged(&self.pairs, &pairs, |pair| {
             let blocks = pair.parts.map(|part| block[part as usize]);
             let periods = self.periods.as_ref();
@@ -328,6 +331,42 @@ impl Blocks {
         self.skin_references = self.states.iter().enumerate().map(reference).collect();
         self.deforming.set_skin_reference();
         Ok(())
+    }
+
+    /// Drops pairs with several images of a block next to one that fills an axis, which repeat the same contact: only that image
+    /// is kept that lies next to the filling part with its whole length, if there is one. Sorts the pairs by their
+    /// [`Periods::lasting`] offsets.
+    fn drop_repeated(&self, periods: &Periods, pairs: &mut Vec<PartPair>) {
+        let blocks = |pair: &PartPair| pair.parts.map(|part| self.parts.block[part as usize]);
+        let key = |pair: &PartPair| (pair.parts, periods.lasting(blocks(pair), pair.offset));
+        let aabbs = self.parts.aabbs(&self.bodies, |_| 0.0);
+        // Lengths by which the parts that do not fill an axis extend beyond those that do, and distance of the blocks, m.
+        let excess = |pair: &PartPair| {
+            let shift = periods.period.shift(pair.offset);
+            let filled = blocks(pair).map(|block| periods.filled[block as usize]);
+            let [first, mut second] = pair.parts.map(|part| aabbs[part as usize]);
+            second = moved(&second, shift);
+            let along = |axis: usize| {
+                let (filling, other) = match [filled[0][axis], filled[1][axis]] {
+                    [true, false] => (&first, &second),
+                    [false, true] => (&second, &first),
+                    _ => return 0.0,
+                };
+                (filling.min[axis] - other.min[axis]).max(0.0)
+                    + (other.max[axis] - filling.max[axis]).max(0.0)
+            };
+            let [a, b] = blocks(pair).map(|block| self.states[block as usize].centre);
+            (along(0) + along(1) + along(2), (b + shift).distance(a))
+        };
+        pairs.sort_by(|a, b| {
+            let ((a_length, a_distance), (b_length, b_distance)) = (excess(a), excess(b));
+            key(a)
+                .cmp(&key(b))
+                .then(a_length.total_cmp(&b_length))
+                .then(a_distance.total_cmp(&b_distance))
+                .then(a.offset.cmp(&b.offset))
+        });
+        pairs.dedup_by(|next, first| key(next) == key(first) && excess(first).0 == 0.0);
     }
 
     /// Margin of the boxes of a block, m.

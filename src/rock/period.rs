@@ -257,7 +257,7 @@ impl Periods {
     }
 }
 
-fn moved(aabb: &Aabb, shift: DVec3) -> Aabb {
+pub(super) fn moved(aabb: &Aabb, shift: DVec3) -> Aabb {
     let by = |corner: [f64; 3]| std::array::from_fn(|axis| corner[axis] + shift[axis]);
     Aabb {
         min: by(aabb.min),

@@ -156,6 +156,31 @@ fn a_block_slides_over_the_border_of_its_floor() {
     }
 }
 
+/// A block near the border has one contact with a floor that is longer than the period, also if its image comes near a block on
+/// the other side.
+#[test]
+fn images_of_a_block_share_its_contact_with_a_long_floor() {
+    for across in [false, true] {
+        let size = |length: f64| if length > 0.0 { length } else { f64::INFINITY };
+        let floor = Block::new("floor", cuboid(9.0, 9.0, 1.0), DVec3::new(2.0, 2.0, -0.5));
+        let at = |x: f64, z: f64| DVec3::new(x, if across { x } else { 2.0 }, z);
+        let resting = Block::new("resting", cuboid(1.0, 1.0, 0.5), at(3.45, 0.2499));
+        let other = Block::new("other", cuboid(1.0, 1.0, 0.5), at(0.05, 2.0));
+        let mut blocks = blocks(Setup {
+            period: Some(Period {
+                origin: DVec3::ZERO,
+                size: DVec3::new(4.0, size(if across { 4.0 } else { 0.0 }), f64::INFINITY),
+            }),
+            ..setup(
+                vec![floor.fixed(), resting, other.fixed()],
+                joint(1e8, 20.0),
+            )
+        });
+        run(&mut blocks, 0.01);
+        assert_eq!(blocks.contacts().count(), 1, "{across}");
+    }
+}
+
 #[test]
 fn all_finders_see_the_same_pairs_of_images() {
     let mut list = Vec::new();

@@ -5,6 +5,10 @@ fn effective_radius(radius: f32) -> f32 {
     return radius;
 }
 
+fn effective_plane(normal: vec3<f32>, s: f32, solid: f32) -> f32 {
+    return solid;
+}
+
 fn effective_polyhedron(part: Part, r: vec3<f32>, solid: f32) -> vec2<f32> {
     return vec2(solid);
 }

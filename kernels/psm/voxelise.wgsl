@@ -38,22 +38,24 @@ fn voxelise(
     let part = parts[tile.part];
     let reach = select(reach_of(tile.inside), vec2(0u, WORKGROUP), job >= WHOLE);
     for (var place = reach.x + local; place < reach.y; place += INVOCATIONS) {
-        let fraction = quick_fraction(tile, part, place_in_brick(place));
-        solid_fractions[number * WORKGROUP + place] = fraction;
-        effective_fractions[number * WORKGROUP + place] = vec2(clamp(fraction, 0.0, 1.0));
-        if (fraction == UNDECIDED) {
+        let fractions = quick_fractions(tile, part, place_in_brick(place));
+        solid_fractions[number * WORKGROUP + place] = fractions.x;
+        effective_fractions[number * WORKGROUP + place] = fractions.yy;
+        if (fractions.x == UNDECIDED) {
             edges.cells[atomicAdd(&edges.count, 1u)] = number * WORKGROUP + place;
         }
     }
 }
 
-fn quick_fraction(tile: Tile, part: Part, place: vec3<u32>) -> f32 {
+// The solid fraction, or a mark, and the effective fraction.
+fn quick_fractions(tile: Tile, part: Part, place: vec3<u32>) -> vec2<f32> {
     if (!in_domain(place, tile.inside)) {
-        return 0.0;
+        return vec2(0.0);
     }
     let cell = tile.cell + vec3<i32>(place);
     if (part.faces == 0u) {
-        return sphere_quick(part, cell);
+        let fraction = sphere_quick(part, cell);
+        return vec2(fraction, clamp(fraction, 0.0, 1.0));
     }
     return polyhedron_quick(part, centre_from(cell, part.base, part.fraction));
 }

@@ -72,17 +72,17 @@ pub use face_load::FaceLoad;
 pub use frame::{Frame, spin};
 pub use near_cells::NearCell;
 pub(crate) use near_cells::{near_cells, outline};
-pub(crate) use program::sphere_growth;
 #[doc(hidden)]
 pub use program::{
     CellMapping, Forms, MAX_FACES, MAX_STORAGE_BUFFERS, WHOLE, combine_parts, constants,
     reduce_blocks, reduce_faces, reduce_tiles, sum_faces, voxelise, voxelise_edges,
 };
+pub(crate) use program::{oblique_shift, sphere_growth};
 pub use solid_cells::{CellWork, SolidBlock, SolidCells};
 #[doc(hidden)]
 pub use tables::{
     FACE_LAYERS, FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion, NEAR,
-    PLANES, Part, SHARED_SUM, TOUCHES, Tile, WRENCH,
+    OBLIQUE_SHIFT, PLANES, Part, SHARED_SUM, TOUCHES, Tile, WRENCH,
 };
 
 use tiles::Plan;

@@ -121,6 +121,14 @@ pub fn sphere_growth(weight: SolidWeight, tau: f64) -> f64 {
     }
 }
 
+/// [`OBLIQUE_SHIFT`] with the exact weight; the standard one has no correction.
+pub fn oblique_shift(weight: SolidWeight) -> f64 {
+    match weight {
+        SolidWeight::Exact => f64::from(super::tables::OBLIQUE_SHIFT),
+        SolidWeight::Standard => 0.0,
+    }
+}
+
 /// A program whose `psm_planes` have as many bindings as those of `lattice`; without this they have one binding.
 pub(super) fn spread(program: Program, lattice: &Lattice) -> Program {
     let planes = lattice.bindings().psm_planes;

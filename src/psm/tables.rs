@@ -3,6 +3,10 @@
 
 use bytemuck::{Pod, Zeroable};
 
+/// Outward shift, cells, of the effective position of a plane with the unit normal n, over 1 − (n_x⁴ + n_y⁴ + n_z⁴): with the
+/// exact weight alone, planes at an angle to the grid lie inside by about as much (docs/src/theory/solids.md).
+pub const OBLIQUE_SHIFT: f32 = 0.05;
+
 /// Solid fraction of a part in a cell that is inside it, as are all cells within two layers around.
 pub const INTERIOR: f32 = 2.0;
 

@@ -5,13 +5,18 @@ use crate::{
     error::{Error, Result},
     geometry::{HalfSpace, Polyhedron, Terrain, TriangleMesh, volumes_below},
 };
-use glam::DVec3;
-use std::f64::consts::PI;
+use glam::{DMat3, DVec3};
+use std::{collections::HashMap, f64::consts::PI};
 
 /// Solid or fluid fraction below which a cell is entirely fluid or solid: above the rounding of decimal coordinates.
 const WHOLE: f64 = 1e-4;
 /// Radius below which the growth of a sphere does not increase further, cells.
 const LEAST_RADIUS: f64 = 2.0;
+
+/// Part of the identity that keeps the shift of a sharp edge bounded.
+const DAMPING: f64 = 1e-3;
+/// Angle, in radians, below which a corner does not move.
+const LEAST_ANGLE: f64 = 1e-9;
 
 /// The cells that the solids of a scene fill.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +39,15 @@ impl SolidFractions {
     }
 }
 
+/// By how much solids are larger for the weight than in truth.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Growth {
+    /// Of the radius R of a sphere times R, cells².
+    pub sphere: f64,
+    /// Outward shift of a plane with the unit normal n over 1 − Σn_a⁴, cells.
+    pub oblique: f64,
+}
+
 impl Scene {
     /// The cells that the solids of the scene fill, entirely or partially. If several solids cut a cell, their fractions add
     /// up, to at most one. Cells at pressure faces are entirely solid from one half on, and fluid below.
@@ -42,12 +56,11 @@ impl Scene {
     /// If the file of a mesh or terrain cannot be read, a mesh is open or lies wholly outside the domain, a terrain leaves a
     /// part of the domain without heights, or no fluid is left.
     pub fn solid_fractions(&self) -> Result<SolidFractions> {
-        self.solid_fractions_grown(0.0)
+        self.effective_solid_fractions(Growth::default())
     }
 
-    /// As [`Self::solid_fractions`], with the radius of spheres of R cells enlarged by `growth`/R cells, which the exact weight
-    /// lacks on them.
-    pub(crate) fn solid_fractions_grown(&self, growth: f64) -> Result<SolidFractions> {
+    /// As [`Self::solid_fractions`], of the solids enlarged by `growth`.
+    pub(crate) fn effective_solid_fractions(&self, growth: Growth) -> Result<SolidFractions> {
         let mut mask = Mask::new(self.cells())?;
         let mut partial = Vec::new();
         if self.solids.iter().any(Solid::is_exact) {
@@ -98,15 +111,19 @@ impl Scene {
     /// Calls `mark` for each cell of each solid and hole, in their order, with the fraction that they fill.
     pub(super) fn fill_solids(
         &self,
-        growth: f64,
+        growth: Growth,
         mut mark: impl FnMut(&Solid, [u32; 3], f64),
     ) -> Result<()> {
         for (index, solid) in self.solids.iter().enumerate() {
             let key = format!("solids[{index}]");
             if solid.is_exact() {
-                let growth = if solid.void { 0.0 } else { growth };
-                let triangles = self.surface_of(&key, &solid.shape, growth)?;
                 let terrain = matches!(solid.shape, Shape::Terrain { .. });
+                let mut triangles = self.surface_of(&key, solid, growth)?;
+                if !matches!(solid.shape, Shape::Sphere { .. }) {
+                    let sign = if solid.void { -1.0 } else { 1.0 };
+                    let shift = sign * growth.oblique * self.domain.cell;
+                    shift_oblique(&mut triangles, shift, terrain);
+                }
                 let gap = fill(&triangles, &self.domain, terrain, |cell, part| {
                     mark(solid, cell, part)
                 });
@@ -150,7 +167,8 @@ impl Scene {
     }
 
     /// The triangles of the surface of a solid, m; for a terrain only those of the height surface.
-    fn surface_of(&self, key: &str, shape: &Shape, growth: f64) -> Result<Vec<[DVec3; 3]>> {
+    fn surface_of(&self, key: &str, solid: &Solid, growth: Growth) -> Result<Vec<[DVec3; 3]>> {
+        let shape = &solid.shape;
         if let Some(terrain) = self.terrain(shape)? {
             let (origin, end) = (self.domain.origin, self.domain.end());
             return Ok(terrain.triangles([origin[0], origin[1]], [end[0], end[1]]));
@@ -180,6 +198,7 @@ impl Scene {
             }
             Shape::Sphere { center, radius } => {
                 let cell = self.domain.cell;
+                let growth = if solid.void { 0.0 } else { growth.sphere };
                 let radius = radius + growth * cell * cell / radius.max(LEAST_RADIUS * cell);
                 Ok(sphere(DVec3::from(*center), radius, cell))
             }
@@ -239,6 +258,46 @@ fn fill(
         }
     });
     gap
+}
+
+/// Moves the surface outwards by `shift` (1 − Σn_a⁴) m where its normal is n: each corner so far along the normals of its triangles,
+/// as closely as one vector can; the corners of a terrain along z.
+fn shift_oblique(triangles: &mut [[DVec3; 3]], shift: f64, terrain: bool) {
+    if shift == 0.0 {
+        return;
+    }
+    let volume: f64 = triangles.iter().map(|[a, b, c]| a.dot(b.cross(*c))).sum();
+    let outwards = if terrain { 1.0 } else { volume.signum() };
+    let key = |p: DVec3| (p + 0.0).to_array().map(f64::to_bits);
+    let mut corners = HashMap::<_, (DMat3, DVec3)>::new();
+    for triangle in &*triangles {
+        let [a, b, c] = *triangle;
+        let normal = outwards * (b - a).cross(c - a).normalize_or_zero();
+        if normal == DVec3::ZERO {
+            continue;
+        }
+        let squares = normal * normal;
+        let by = shift * (1.0 - squares.dot(squares));
+        for [p, next, last] in [[a, b, c], [b, c, a], [c, a, b]] {
+            let (matrix, sum) = corners.entry(key(p)).or_insert((DMat3::ZERO, DVec3::ZERO));
+            let angle = (next - p).angle_between(last - p);
+            let column = angle * normal;
+            *matrix += DMat3::from_cols(column * normal.x, column * normal.y, column * normal.z);
+            *sum += column * by;
+        }
+    }
+    let moved = |(matrix, sum): &(DMat3, DVec3)| match terrain {
+        true => DVec3::Z * sum.z / matrix.z_axis.z.max(LEAST_ANGLE),
+        false => {
+            let trace = matrix.x_axis.x + matrix.y_axis.y + matrix.z_axis.z;
+            let damped =
+                *matrix + DMat3::from_diagonal(DVec3::splat(DAMPING * trace + LEAST_ANGLE));
+            damped.inverse() * *sum
+        }
+    };
+    for p in triangles.iter_mut().flatten() {
+        *p += corners.get(&key(*p)).map_or(DVec3::ZERO, moved);
+    }
 }
 
 /// Indices i, j, k of the cell n of a grid, x fastest.

@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use super::{Axis, Domain, Face, Scene, Shape, Solid};
+use super::{Axis, Domain, Face, Scene, Shape, Solid, solid_fractions::Growth};
 use crate::error::{Error, Result};
 use crate::geometry::{TriangleMesh, WindingTree};
 
@@ -116,7 +116,7 @@ impl Scene {
         }
         let mask = Mask::new(self.cells())?;
         let mut roughness = vec![0.0; mask.as_slice().len()];
-        self.fill_solids(0.0, |solid, cell, part| {
+        self.fill_solids(Growth::default(), |solid, cell, part| {
             if part >= 0.5 && mask.has(cell) {
                 roughness[mask.index(cell)] = solid.roughness;
             }

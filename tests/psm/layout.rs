@@ -8,7 +8,7 @@ use riprap::{
     },
     psm::{
         CellMapping, FACE_LOAD, FACING_SUM, FaceJob, INTERIOR, INTERIOR_SUM, JOINT_SUM, Motion,
-        NEAR, Part, SHARED_SUM, TOUCHES, Tile, WRENCH, reduce_faces,
+        NEAR, OBLIQUE_SHIFT, Part, SHARED_SUM, TOUCHES, Tile, WRENCH, reduce_faces,
     },
 };
 use std::mem::offset_of;
@@ -66,7 +66,7 @@ fn structures() {
 #[test]
 fn constants() {
     let there = |name: &str| -> f32 {
-        let texts = ["tables", "psm_planes"].map(|file| source(file).unwrap());
+        let texts = ["tables", "psm_planes", "effective_surface"].map(|file| source(file).unwrap());
         let text = texts.join("\n");
         let mut values = text.lines().filter_map(|line| {
             let (declared, value) = line.strip_prefix("const ")?.split_once(" = ")?;
@@ -76,6 +76,7 @@ fn constants() {
         value.parse().unwrap()
     };
     for (name, value) in [
+        ("OBLIQUE_SHIFT", OBLIQUE_SHIFT),
         ("INTERIOR", INTERIOR),
         ("NEAR", NEAR),
         ("NEAR_SUM", NEAR),

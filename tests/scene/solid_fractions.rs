@@ -4,11 +4,13 @@ use crate::{
     refused,
     solids::{cuboid, write_stl},
 };
+use glam::{DQuat, DVec3};
 use kit::assert_near;
 use riprap::{
     Result,
     geometry::Terrain,
-    scene::{Scene, SolidFractions},
+    scene::{Scene, SolidFractions, build::lattice_setup},
+    units::Units,
 };
 use std::{
     fs,
@@ -101,6 +103,58 @@ fn a_sphere_and_a_hole_in_it_have_their_volumes() {
     assert_near(volume(&whole) / of(0.37), 1.0, 1e-4);
     let shell = cells(&format!("{}{}void = true", sphere(0.37), sphere(0.25)));
     assert_near(volume(&shell) / (of(0.37) - of(0.25)), 1.0, 1e-3);
+}
+
+/// Sum of the fractions that determine the weights of cells in the lattice.
+fn effective(dir: &Path, solids: &str) -> f64 {
+    let scene = scene(dir, solids).unwrap();
+    let setup = lattice_setup(&scene, &Units::of(&scene).unwrap(), None).unwrap();
+    let partial = setup.surface.iter().map(|cell| f64::from(cell.fraction));
+    setup.solid.iter().filter(|solid| **solid).count() as f64 + partial.sum::<f64>()
+}
+
+/// For the weight, a plane with the unit normal n is 0.05 (1 − Σn_a⁴) of a cell farther out.
+#[test]
+fn oblique_planes_move_outwards_for_the_weight() {
+    let shift = |n: DVec3| 0.05 * (1.0 - (n * n).dot(n * n));
+    let near = |found: f64, expected: f64| assert_near(found, expected, 0.1);
+    let none = Path::new("");
+    let n = DVec3::new(1.0, -0.5, 3.0).normalize();
+    let half_space = effective(
+        none,
+        "[[solids]]\nkind = \"half_space\"\npoint = [0.6, 0.5, 0.4]\nnormal = [1, -0.5, 3]\nsurface = \"exact\"",
+    );
+    near(half_space, 0.5 * 960.0 + 120.0 * shift(n) / n.z);
+    let along = "[[solids]]\nkind = \"box\"\nmin = [0.33, 0.1, 0]\nmax = [0.7, 0.6, 0.57]\nsurface = \"exact\"";
+    near(effective(none, along), 3.7 * 5.0 * 5.7);
+
+    let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("oblique_planes");
+    fs::create_dir_all(&dir).unwrap();
+    let turn = DQuat::from_rotation_z(0.6) * DQuat::from_rotation_x(0.4);
+    let half = DVec3::new(0.2, 0.15, 0.15);
+    let turned = cuboid(-half, half).into_iter();
+    let turned = turned.map(|t| t.map(|p| turn * p + DVec3::new(0.6, 0.5, 0.4)));
+    write_stl(&dir.join("box.stl"), &turned.collect::<Vec<_>>());
+    let moved = |sign: f64| -> f64 {
+        let edge = |a: usize| 2.0 * (10.0 * half[a] + sign * shift(turn * DVec3::AXES[a]));
+        edge(0) * edge(1) * edge(2)
+    };
+    let mesh = "[[solids]]\nkind = \"mesh\"\nfile = \"box.stl\"\nsurface = \"exact\"\n";
+    near(effective(&dir, mesh), moved(1.0));
+    let around =
+        "[[solids]]\nkind = \"box\"\nmin = [0.1, 0, 0]\nmax = [1.2, 1, 0.8]\nsurface = \"exact\"\n";
+    let hole = effective(&dir, &format!("{around}{mesh}void = true"));
+    near(hole, 880.0 - moved(-1.0));
+
+    let mut bed = String::new();
+    for (i, j) in (0..7).flat_map(|i| (0..6).map(move |j| (i, j))) {
+        let [x, y] = [i, j].map(|n| 0.2 * f64::from(n));
+        bed += &format!("{x} {y} {}\n", 0.2 + 0.3 * x);
+    }
+    fs::write(dir.join("slope.xyz"), bed).unwrap();
+    let n = DVec3::new(-0.3, 0.0, 1.0).normalize();
+    let terrain = effective(&dir, "[[solids]]\nkind = \"terrain\"\nfile = \"slope.xyz\"");
+    near(terrain, 120.0 * (3.8 + shift(n) / n.z));
 }
 
 /// A bed whose heights are plane except for a ridge, and its volume below the triangles.

@@ -1,7 +1,10 @@
 //! Flow between planes that are static solids: positions of their surfaces, as partially saturated cells and as staircases.
 
 use super::{CaseContext, Outcome, Record, fields};
-use riprap::lattice::{Force, Setup, SurfaceCell};
+use riprap::{
+    lattice::{Force, Setup, SurfaceCell},
+    psm::OBLIQUE_SHIFT,
+};
 
 /// Edge along x and y of the periodic box, cells.
 const PERIOD: u32 = 32;
@@ -55,12 +58,15 @@ impl Planes {
         let (begin, period) = (0.37 * length, f64::from(PERIOD));
         // The solid lies between `begin` and `end` of a x + b y, and repeats with the period of the box.
         let end = begin + THICK * length;
+        // As solids of a scene: with the weight of oblique planes.
+        let shift = f64::from(OBLIQUE_SHIFT) * (1.0 - (a.powi(4) + b.powi(4)) / length.powi(4));
+        let [outer_begin, outer_end] = [begin - shift * length, end + shift * length];
         let repeats = self.normal.iter().sum::<u32>() + 1;
         let cell = |x: f64, y: f64| -> f64 {
             let at = a * x + b * y;
             (0..repeats)
                 .map(|n| f64::from(n) * period - at)
-                .map(|shift| below(a, b, end + shift) - below(a, b, begin + shift))
+                .map(|shift| below(a, b, outer_end + shift) - below(a, b, outer_begin + shift))
                 .sum()
         };
         let centre = |x: f64, y: f64| {

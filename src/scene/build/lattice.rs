@@ -6,8 +6,8 @@ use crate::{
         Collision, Equilibrium, Face, Force, MAX_ROUGHNESS, Setup, SolidOperator, SolidWeight,
         Storage, SurfaceCell, SyntheticTurbulence, WallModel,
     },
-    psm::sphere_growth,
-    scene::{self, BodyForce, Boundary, Numerics, Scene, SolidFractions},
+    psm::{oblique_shift, sphere_growth},
+    scene::{self, BodyForce, Boundary, Numerics, Scene, SolidFractions, solid_fractions::Growth},
     units::{SOUND_SPEED_SQUARED, Units},
 };
 
@@ -162,8 +162,11 @@ pub fn lattice_setup(scene: &Scene, units: &Units, cpu: Option<wgpu::Features>) 
             None | Some(SolidOperator::Holdych) => SolidWeight::Exact,
             Some(_) => SolidWeight::Standard,
         });
-        let growth = sphere_growth(weight, setup.tau());
-        let SolidFractions { mask, partial } = scene.solid_fractions_grown(growth)?;
+        let growth = Growth {
+            sphere: sphere_growth(weight, setup.tau()),
+            oblique: oblique_shift(weight),
+        };
+        let SolidFractions { mask, partial } = scene.effective_solid_fractions(growth)?;
         scene.check_openings(&mask)?;
         let cells = partial.into_iter();
         setup.surface = cells

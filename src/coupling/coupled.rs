@@ -192,17 +192,24 @@ impl Coupled<'_> {
         pose.velocity + gradient * r
     }
 
-    /// Sets the velocity of the fluid inside the blocks to that of the blocks. Otherwise the acceleration of the fluid
-    /// to their velocity would take momentum from them.
+    /// Sets the velocity of the fluid inside the blocks to that of the blocks, and in cells with a face through their centre to the
+    /// mean of both. Otherwise the acceleration of the fluid to their velocity would take momentum from them.
     pub fn set_interior_velocity(&self, domain: &Domain, state: &mut State) {
         let units = self.solid_cells().frame().units;
         let cells = domain.cells();
-        for found in self.cells_near_blocks(0.0) {
+        for found in self.cells_near_blocks(ON_FACE) {
             let at = found.cell.index;
             let centre = DVec3::from(domain.centre(found.cell.ijk(cells)));
             let velocity = self.solid_velocity(found.block, centre).to_array();
+            let part = if found.cell.distance < -ON_FACE {
+                1.0
+            } else {
+                0.5
+            };
             for (field, velocity) in state.velocity.iter_mut().zip(velocity) {
-                field[at as usize] = units.velocity_to_lattice(velocity) as f32;
+                let value = &mut field[at as usize];
+                let change = units.velocity_to_lattice(velocity) - f64::from(*value);
+                *value = (f64::from(*value) + part * change) as f32;
             }
         }
     }
@@ -329,6 +336,8 @@ pub(crate) struct BlockAtInlet {
     pub speed: f64,
 }
 
+/// Distance, cells, up to which a face passes through the centre of a cell: above rounding.
+const ON_FACE: f64 = 1e-6;
 /// Roughness of faces, cells: that of rock is a thousandth to a hundredth of the size of a block, which spans some
 /// tens of cells.
 const ROUGHNESS: f64 = 0.1;

@@ -3,7 +3,7 @@
 use super::{Gap, gaps::gaps};
 use crate::{
     Result,
-    geometry::{Form, min_max},
+    geometry::{Form, Placed, min_max},
     rock::{Block, Blocks, Motion, broadphase::HostBroadphase, formula_values},
     scene::{
         Advice, Probe, ProbePlace, Scene, Warning,
@@ -27,7 +27,8 @@ const MAX_WAVE_SPEED_RATIO: f64 = 2.0;
 /// friction and water reduce.
 const FALL_SPEED_RATIO: f64 = 1.5;
 
-/// Difference of the size of a tank from a whole number of spacings from which its water starts too far from the wall, or too near.
+/// Difference of the size of a tank, or of the position of a face, from a whole number of spacings from which the water starts too
+/// far from the wall, or too near.
 const WALL_TOLERANCE: f64 = 0.05;
 
 /// Warnings about the water of `scene` with the particle setup `setup`: `positions` (m) are the initial positions of the
@@ -62,6 +63,7 @@ pub async fn particle_advice(
     }
     check_mass(scene, blocks, setup, positions.len(), &mut warn)?;
     check_walls(setup, positions, &mut warn);
+    check_faces(scene, blocks, state, setup, positions, &mut warn);
     check_support(scene, blocks, setup, &mut warn);
     check_speeds(scene, blocks, setup, positions, &mut warn);
     check_probes(scene, blocks, setup, positions, &mut warn);
@@ -188,6 +190,72 @@ fn check_walls(setup: &Setup, positions: &[DVec3], warn: &mut impl FnMut(String,
                 ),
             );
         }
+    }
+}
+
+/// Warns of a face of a block that is not free, among those along the axes: the one farthest from a whole number of spacings.
+fn check_faces(
+    scene: &Scene,
+    blocks: &BlockSetup,
+    state: &Blocks,
+    setup: &Setup,
+    positions: &[DVec3],
+    warn: &mut impl FnMut(String, String),
+) {
+    let spacing = setup.spacing;
+    let (mut farthest, mut message) = (WALL_TOLERANCE, None);
+    let all = blocks.setup.blocks.iter().zip(state.poses());
+    let all = all.take(blocks.in_fluid + scene.solids.len());
+    for (block, pose) in all.filter(|(block, _)| block.motion != Motion::Free) {
+        for part in block.shape.parts() {
+            let placed = Placed::of(part, &pose);
+            let corners = |axis: usize| {
+                min_max(
+                    placed
+                        .vertices
+                        .iter()
+                        .map(|v| placed.centre[axis] + v[axis]),
+                )
+            };
+            let bounds = [0, 1, 2].map(corners);
+            for face in &placed.faces {
+                let along = |axis: &usize| face.normal[*axis].abs() > 1.0 - 1e-9;
+                let Some(axis) = (0..3).find(along).filter(|&a| !(setup.plane && a == 1)) else {
+                    continue;
+                };
+                let side = face.normal[axis].signum();
+                let at = placed.centre[axis] + side * face.distance;
+                let count = (at - setup.origin[axis]) / spacing;
+                let off = (count - count.round()).abs();
+                if off <= farthest {
+                    continue;
+                }
+                let before = positions.iter().filter(|x| {
+                    let within = |a: usize| bounds[a][0] < x[a] && x[a] < bounds[a][1];
+                    (0..3).all(|a| a == axis || within(a))
+                });
+                let gaps = before
+                    .map(|x| side * (x[axis] - at))
+                    .filter(|gap| *gap > 0.0);
+                let [gap, _] = min_max(gaps);
+                if gap < 1.5 * spacing {
+                    let lower = setup.origin[axis] + count.floor() * spacing;
+                    farthest = off;
+                    message = Some(format!(
+                        "`{}` has a face at {} = {at:.4} m, {count:.2} spacings from the lower corner of the domain: the water starts \
+                         {:.2} of a spacing from it instead of half of one, and circulates there for some time; {lower:.4} or {:.4} m \
+                         are whole numbers of spacings",
+                        block.name,
+                        ["x", "y", "z"][axis],
+                        gap / spacing,
+                        lower + spacing
+                    ));
+                }
+            }
+        }
+    }
+    if let Some(message) = message {
+        warn("particles.spacing".into(), message);
     }
 }
 

@@ -34,6 +34,9 @@ const AREA_TOLERANCE: f64 = 0.1;
 /// Smallest closed area, as a fraction of the area of the face.
 const MIN_FRACTION: f64 = 0.01;
 
+/// Fraction of an area below which it is rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// A face with its closed and its open area.
 #[derive(Clone, Debug)]
 struct JointFace<'a> {
@@ -310,7 +313,12 @@ impl<'a> JointFace<'a> {
     /// The load of a joint pressure on the dry area.
     fn joint_load(&self, pressure: &PressurePlane) -> JointLoad {
         let dry_fraction = 1.0 - self.load.wetted / self.open.area.max(f64::MIN_POSITIVE);
-        let over = self.closed.plus(&self.open.times(dry_fraction.max(0.0)));
+        let dry_fraction = if dry_fraction < ROUNDING {
+            0.0
+        } else {
+            dry_fraction
+        };
+        let over = self.closed.plus(&self.open.times(dry_fraction));
         let normal = self.load.face.normal;
         let force = pressure.value * over.area + pressure.gradient.dot(over.first);
         let first = pressure.value * over.first + over.second * pressure.gradient;

@@ -1,6 +1,7 @@
 //! Blocks at periodic faces, at walls and in corners; blocks with many faces.
 
 use crate::fixture::{DENSITY, STEP, World, fluid, material};
+use glam::DVec3;
 use kit::{assert_near, assert_relative};
 
 const DRIVEN: &str = r#"
@@ -27,6 +28,31 @@ fn periodic(position: [f64; 3]) -> World {
         fluid([12, 12, 12], 0.05),
         material("rock", 2000.0)
     ))
+}
+
+/// At the start the fluid has the momentum of the block's volume, also where its faces are in the middle of cells.
+#[test]
+fn water_inside_a_block_starts_with_its_velocity() {
+    for place in [3.0, 3.25] {
+        let scene = format!(
+            r#"{}{}
+            [rock]
+            gravity = [0, 0, 0]
+            [numerics]
+            time_step = 0.25
+            [[blocks]]
+            kind = "box"
+            size = [2, 2.5, 2]
+            position = [3, {place}, 3]
+            motion = "driven"
+            velocity = [0.05, 0.03, -0.02]"#,
+            fluid([12, 12, 12], 0.05),
+            material("rock", 2000.0)
+        );
+        let (momentum, _) = World::new(&scene).fluid();
+        let expected = 1000.0 * 10.0 * DVec3::new(0.05, 0.03, -0.02);
+        assert!((momentum - expected).length() < 1e-3, "{place}: {momentum}");
+    }
 }
 
 #[test]

@@ -88,6 +88,22 @@ fn tanks_of_whole_spacings_hold_water_at_rest() {
     }
 }
 
+/// So does water before the face of a fixed block at such a distance.
+#[test]
+fn faces_of_fixed_blocks_are_whole_spacings_from_the_corner() {
+    for (x, motion, count) in [(1.0, "fixed", 0), (1.02, "fixed", 1), (1.02, "free", 0)] {
+        let cube = block(&format!(
+            "size = [0.3, 0.3, 0.3]\nposition = [{x}, 0.5, 0.15]\nmotion = \"{motion}\""
+        ));
+        let found = warnings(&tank(&cube).unwrap());
+        let found: Vec<_> = found.iter().filter(|w| w.contains("circulates")).collect();
+        assert_eq!(found.len(), count, "{x}, {motion}: {found:?}");
+        if count > 0 {
+            assert_contains(found[0], &["has a face at x = ", "0.8500 or 0.9000 m"]);
+        }
+    }
+}
+
 /// The ends of a prism in a planar scene are not checked.
 #[test]
 fn prisms_in_a_planar_scene_may_be_as_thin_as_it() {

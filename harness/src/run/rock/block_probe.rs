@@ -223,6 +223,7 @@ fn face_row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Row {
     row.number("shear", shear.length());
     row.number("joint", f64::from(u8::from(joint)));
     row.number("joint_area", closed.map_or(0.0, |closed| closed.area));
+    let closed = closed.filter(|closed| closed.area > 0.0);
     let pressure = |closed: &JointLoad| -closed.force.dot(face.normal) / closed.area;
     row.number("joint_pressure", closed.map_or(f64::NAN, pressure));
     row.vector("position", face.centre);

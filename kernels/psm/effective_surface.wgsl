@@ -23,7 +23,11 @@ fn oblique_shift(normal: vec3<f32>) -> f32 {
 
 // Effective fraction of a cell that one plane cuts; s: the height of its centre over the plane.
 fn effective_plane(normal: vec3<f32>, s: f32, solid: f32) -> f32 {
-    return left_of(normal, s - oblique_shift(normal));
+    let shift = oblique_shift(normal);
+    if (shift < TOUCH) {
+        return solid;
+    }
+    return left_of(normal, s - shift);
 }
 
 // Effective fractions of a cell that several planes cut, alone and next to other parts. Alone: the fraction below the lowest

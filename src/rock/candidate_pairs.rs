@@ -337,6 +337,9 @@ impl Blocks {
     /// is kept that lies next to the filling part with its whole length, if there is one. Sorts the pairs by their
     /// [`Periods::lasting`] offsets.
     fn drop_repeated(&self, periods: &Periods, pairs: &mut Vec<PartPair>) {
+        if periods.filled.iter().all(|filled| *filled == [false; 3]) {
+            return;
+        }
         let blocks = |pair: &PartPair| pair.parts.map(|part| self.parts.block[part as usize]);
         let key = |pair: &PartPair| (pair.parts, periods.lasting(blocks(pair), pair.offset));
         let aabbs = self.parts.aabbs(&self.bodies, |_| 0.0);
@@ -359,12 +362,11 @@ impl Blocks {
             (along(0) + along(1) + along(2), (b + shift).distance(a))
         };
         pairs.sort_by(|a, b| {
-            let ((a_length, a_distance), (b_length, b_distance)) = (excess(a), excess(b));
-            key(a)
-                .cmp(&key(b))
-                .then(a_length.total_cmp(&b_length))
-                .then(a_distance.total_cmp(&b_distance))
-                .then(a.offset.cmp(&b.offset))
+            key(a).cmp(&key(b)).then_with(|| {
+                let ((a_length, a_distance), (b_length, b_distance)) = (excess(a), excess(b));
+                let lengths = a_length.total_cmp(&b_length);
+                lengths.then(a_distance.total_cmp(&b_distance))
+            })
         });
         pairs.dedup_by(|next, first| key(next) == key(first) && excess(first).0 == 0.0);
     }

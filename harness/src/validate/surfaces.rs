@@ -59,8 +59,8 @@ impl Planes {
         // The solid lies between `begin` and `end` of a x + b y, and repeats with the period of the box.
         let end = begin + THICK * length;
         // As solids of a scene: with the weight of oblique planes.
-        let shift = f64::from(OBLIQUE_SHIFT) * (1.0 - (a.powi(4) + b.powi(4)) / length.powi(4));
-        let [outer_begin, outer_end] = [begin - shift * length, end + shift * length];
+        let outwards = f64::from(OBLIQUE_SHIFT) * (1.0 - (a.powi(4) + b.powi(4)) / length.powi(4));
+        let [outer_begin, outer_end] = [begin - outwards * length, end + outwards * length];
         let repeats = self.normal.iter().sum::<u32>() + 1;
         let cell = |x: f64, y: f64| -> f64 {
             let at = a * x + b * y;

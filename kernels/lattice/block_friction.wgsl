@@ -12,12 +12,12 @@ const CUT = 12u;
 // Largest difference of the solid fractions of adjacent cells in front of a grid-aligned face.
 const SLOPE = 0.1;
 
-// Solid fraction of the neighbour through a face; 0 if the neighbour is not fluid.
+// Solid fraction of the neighbour through a face or of its mirror image; 0 if the neighbour is not fluid.
 fn fraction_through(cell: vec3<u32>, face: u32) -> f32 {
-    if ((flags_of(cell) & (1u << face)) != 0u) {
+    if ((flags_of(cell) & ~mirrors_of(cell) & (1u << face)) != 0u) {
         return 0.0;
     }
-    return solid_at(through(cell, face, 1u)).fraction;
+    return solid_at(beside(cell, face)).fraction;
 }
 
 // The face of a full cell where the law acts, or NO_FACE. It is the only open face of the cell, is grid-aligned up to its
@@ -208,6 +208,8 @@ struct BlockFace {
     // Distance of the face beyond that cell along the axis of `face`, cells.
     fraction: f32,
     normal: vec3<f32>,
+    // In faces of a cell.
+    area: f32,
 }
 
 // Number of faces of full block cells in contact with fluid, and number of these where the law acts.
@@ -258,7 +260,7 @@ fn list_block_faces(
         let law = friction_under(cell, here, face);
         var normal: vec3<f32>;
         normal[face / 2u] = select(-1.0, 1.0, face % 2u == 1u);
-        found_faces[n] = BlockFace(padded_index(cell), face, law.friction, law.share, law.stress, law.fraction, normal);
+        found_faces[n] = BlockFace(padded_index(cell), face, law.friction, law.share, law.stress, law.fraction, normal, 1.0);
     }
 }
 
@@ -268,9 +270,9 @@ fn list_sloping_face(cell: vec3<u32>, here: Solid, found: SlopingCell) {
         let law = law_at_slope(found, velocity_of_block(here), 0.0);
         let stress = law.friction * law.friction / max(length(law.u), 1e-30) * law.u;
         let face = law.slope & 7u;
-        let beyond = f32(law.slope >> SLOPE_CELLS) - 0.5 - law.distance / abs(law.normal[face / 2u]);
+        let beyond = f32(cells_to_sample(law.slope)) - 0.5 - law.distance / abs(law.normal[face / 2u]);
         found_faces[n] =
-            BlockFace(padded_index(cell), face, law.friction, model_share(law.friction), stress, beyond, law.normal);
+            BlockFace(padded_index(cell), face, law.friction, model_share(law.friction), stress, beyond, law.normal, law.area);
     }
 }
 

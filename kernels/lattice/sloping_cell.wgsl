@@ -21,12 +21,18 @@ struct SlopingCell {
     // The m of sloping_exchange.wgsl, times the share of the law, and the sum that the populations get by it.
     slip: vec3<f32>,
     given: f32,
+    // Area of the face that acts on the cell, in faces of a cell; 0 below the top of a column.
+    area: f32,
 }
 
 const NO_SLOPE = 0xffffu;
 const SLOPE_TOP = 8u;
 const SLOPE_CELLS = 4u;
 const SLOPE_FREE_SLIP = 8u;
+
+fn cells_to_sample(slope: u32) -> u32 {
+    return (slope >> SLOPE_CELLS) & 15u;
+}
 
 // Result of the law at such a face of a solid with this velocity.
 fn law_at_slope(face: SlopingCell, velocity: vec3<f32>, roughness: f32) -> SlopingCell {

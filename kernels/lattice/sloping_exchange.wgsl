@@ -72,9 +72,9 @@ fn slip_at_slope(at: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f
     let excess = (sum - dot(outward, slip)) / weight_of(face.open);
     leaving -= excess * outward;
     let speed = length(face.u);
-    let is_top = (face.slope & SLOPE_TOP) != 0u;
-    let area = select(0.0, 1.0 / abs(face.normal[(face.slope & 7u) / 2u]), is_top);
-    let change = -2.0 * leaving - area * face.friction * face.friction / max(speed, 1e-30) * face.u;
+    // Of the deviation from the equilibrium of a solid that moves, full cells return a part only: see damping_in_full_cells.
+    let kept = 1.0 - min(abs(velocity.x) + abs(velocity.y) + abs(velocity.z), 0.9);
+    let change = -(1.0 + 1.0 / kept) * leaving - face.area * face.friction * face.friction / max(speed, 1e-30) * face.u;
     let m = tangential_solution(weights, face.normal, change);
     // Limits the velocity m/6 to twice the velocity that the law has read.
     face.slip = share * min(1.0, 12.0 * speed / max(length(m), 1e-30)) * m;

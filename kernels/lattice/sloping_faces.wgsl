@@ -13,7 +13,14 @@ const PARTIAL = 4u;
 const REACH = 12u;
 // Distance of that cell from the face, at least, and distance up to which the eddy viscosity follows from the law.
 const SAMPLE_DISTANCE = 4.0;
+// In place of a height: the column has no full cells below, or no empty ones above.
 const NO_COLUMN = -99.0;
+const HIGH_COLUMN = 99.0;
+// Full cells lie inside the surface, and their columns reach the edges of a convex solid only up to this distance, cells: the mean
+// over prisms with 3 to 48 sides at all angles and positions.
+const EDGE_DEPTH = 1.2;
+// Cells beside an edge up to which other solid makes the gap too narrow for a stream.
+const EDGE_GAP = 4u;
 // Ratio of the two largest components towards less solid from which a column may run along the second: where the only cells that
 // are not full lie across an edge of the cell, both are equal, and the axis nearest to the normal may be the second.
 const DIAGONAL = 0.9;
@@ -28,7 +35,7 @@ fn fraction_in(at: vec2<u32>) -> f32 {
     return select(0.0, read_psm(PLANE_FRACTION, max(at.x, 1u) - 1u, at.y), at.x > 0u);
 }
 
-// A cell with its neighbours on the torus of the domain: the slot of (x + a, y + b, z + c) is psm_slots[brick_x[1 + a] +
+// A cell with its neighbours on the torus of the domain, or their mirror images beyond free-slip faces: the slot of (x + a, y + b, z + c) is psm_slots[brick_x[1 + a] +
 // brick_y[1 + b] + brick_z[1 + c]], and its place is the sum of those of the axes, as psm_place has them.
 struct PsmNeighbourhood {
     brick_x: vec3<u32>,
@@ -40,9 +47,10 @@ struct PsmNeighbourhood {
 }
 
 fn psm_neighbourhood(cell: vec3<u32>) -> PsmNeighbourhood {
-    let x = on_ring(cell.x, CELLS_X);
-    let y = on_ring(cell.y, CELLS_Y);
-    let z = on_ring(cell.z, CELLS_Z);
+    let mirrors = mirrors_of(cell);
+    let x = on_ring(cell.x, CELLS_X, mirrors);
+    let y = on_ring(cell.y, CELLS_Y, mirrors >> 2u);
+    let z = on_ring(cell.z, CELLS_Z, mirrors >> 4u);
     let in_y = y % vec3(NY);
     let in_z = z % vec3(NZ);
     let bricks_x = (NX + BRICK_X - 1u) / BRICK_X;
@@ -57,12 +65,15 @@ fn psm_neighbourhood(cell: vec3<u32>) -> PsmNeighbourhood {
     );
 }
 
-fn on_ring(i: u32, n: u32) -> vec3<u32> {
-    return vec3(select(i - 1u, n - 1u, i == 0u), i, select(i + 1u, 0u, i + 1u == n));
+// An index with those on both sides, by the bits of both for mirror images.
+fn on_ring(i: u32, n: u32, mirrors: u32) -> vec3<u32> {
+    let before = select(select(i - 1u, n - 1u, i == 0u), i, (mirrors & 1u) != 0u);
+    let after = select(select(i + 1u, 0u, i + 1u == n), i, (mirrors & 2u) != 0u);
+    return vec3(before, i, after);
 }
 
-// Height of the solid in the column of a cell, from its centre towards a face; NO_COLUMN if the column is no full solid below no
-// solid.
+// Height of the solid in the column of a cell, from its centre towards a face; NO_COLUMN or HIGH_COLUMN if the column is no full
+// solid below no solid.
 fn column_height(cell: vec3<u32>, face: u32) -> f32 {
     let own = fraction_at(cell);
     var height = own - 0.5;
@@ -70,7 +81,7 @@ fn column_height(cell: vec3<u32>, face: u32) -> f32 {
     var fraction = own;
     for (var k = 0u; fraction > 0.0; k++) {
         if (k == PARTIAL) {
-            return NO_COLUMN;
+            return HIGH_COLUMN;
         }
         at = through(at, face, 1u);
         fraction = fraction_at(at);
@@ -89,12 +100,37 @@ fn column_height(cell: vec3<u32>, face: u32) -> f32 {
     return height;
 }
 
-// Slope of the surface along an axis, from the columns on both sides; LARGEST_SLOPE or more where there is no flat face.
-fn slope_along(cell: vec3<u32>, face: u32, axis: u32, height: f32) -> f32 {
-    let before = column_height(through(cell, 2u * axis, 1u), face);
-    let after = column_height(through(cell, 2u * axis + 1u, 1u), face);
-    let flat = before != NO_COLUMN && after != NO_COLUMN && abs(before + after - 2.0 * height) <= FLAT;
-    return select(LARGEST_SLOPE, 0.5 * (after - before), flat);
+fn is_height(height: f32) -> bool {
+    return height != NO_COLUMN && height != HIGH_COLUMN;
+}
+
+// The surface along an axis, from the columns on both sides.
+struct Profile {
+    // LARGEST_SLOPE or more where there is no flat face.
+    slope: f32,
+    // Distance by which the surface is longer than its part in the columns with full cells: where it turns by an angle, twice the
+    // depth of these cells times the tangent of half the angle.
+    longer: f32,
+}
+
+fn profile_along(cell: vec3<u32>, face: u32, axis: u32, height: f32) -> Profile {
+    let before = column_height(beside(cell, 2u * axis), face);
+    let after = column_height(beside(cell, 2u * axis + 1u), face);
+    let rise = height - before;
+    let next = after - height;
+    if (is_height(before) && is_height(after)) {
+        let half_angle = (rise - next) / (sqrt((1.0 + rise * rise) * (1.0 + next * next)) + 1.0 + rise * next);
+        let slope = select(LARGEST_SLOPE, 0.5 * (after - before), abs(next - rise) <= FLAT);
+        return Profile(slope, 2.0 * EDGE_DEPTH * half_angle);
+    }
+    let both = beyond_edge(cell, 2u * axis, before) + beyond_edge(cell, 2u * axis + 1u, after);
+    return Profile(LARGEST_SLOPE, EDGE_DEPTH * both);
+}
+
+// Faces that reach beyond the columns with full cells, on the side of a column with this height: this one, and the one around the
+// edge if fluid lies in front of it.
+fn beyond_edge(cell: vec3<u32>, side: u32, height: f32) -> f32 {
+    return select(0.0, select(1.0, 2.0, has_fluid(cell, side, 0.5, 0u, EDGE_GAP)), height == NO_COLUMN);
 }
 
 // Whether the cells of a column beyond `after` others, up to one of them, are fluid and hold no solid, if the face cannot cut them.
@@ -145,7 +181,7 @@ fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
     var others = abs(less);
     others[axis] = 0.0;
     let second = largest_axis(others);
-    if (height == NO_COLUMN && others[second] > DIAGONAL * abs(less[axis])) {
+    if (!is_height(height) && others[second] > DIAGONAL * abs(less[axis])) {
         axis = second;
         height = column_height(cell, face_towards(less, axis));
     }
@@ -153,17 +189,18 @@ fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
     let face = face_towards(less, axis);
     // No face is nearer than this along the axis.
     let nearest = u32(ceil(SAMPLE_DISTANCE + height));
-    if (height == NO_COLUMN || !has_fluid(cell, face, height, 0u, nearest)) {
+    if (!is_height(height) || !has_fluid(cell, face, height, 0u, nearest)) {
         return found;
     }
     let along = vec2((axis + 1u) % 3u, (axis + 2u) % 3u);
-    let slope = vec2(slope_along(cell, face, along.x, height), slope_along(cell, face, along.y, height));
+    let profile_x = profile_along(cell, face, along.x, height);
+    let profile_y = profile_along(cell, face, along.y, height);
     // At edges, the direction towards less solid.
     var normal = less;
-    if (max(abs(slope.x), abs(slope.y)) < LARGEST_SLOPE) {
+    if (max(abs(profile_x.slope), abs(profile_y.slope)) < LARGEST_SLOPE) {
         normal[axis] = select(-1.0, 1.0, up);
-        normal[along.x] = -slope.x;
-        normal[along.y] = -slope.y;
+        normal[along.x] = -profile_x.slope;
+        normal[along.y] = -profile_y.slope;
     }
     found.normal = normalize(normal);
     let rise = abs(found.normal[axis]);
@@ -173,7 +210,8 @@ fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
         return found;
     }
     found.open = select(0u, found.open, here.fraction >= FULL);
-    found.slope = face | select(0u, SLOPE_TOP, top) | (cells << SLOPE_CELLS);
+    found.area = select(0.0, max(1.0 / rise + profile_x.longer + profile_y.longer, 0.0), top);
+    found.slope = face | select(0u, SLOPE_TOP, top) | (cells << SLOPE_CELLS) | (mirrors_of(cell) << SLOPE_FREE_SLIP);
     found.sample = scalar_of(through(cell, face, cells));
     found.distance = (f32(cells) - height) * rise;
     return found;

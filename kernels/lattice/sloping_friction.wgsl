@@ -75,7 +75,7 @@ fn set_viscosity_above(face: SlopingCell, cell: vec3<u32>, friction: f32) {
         return;
     }
     let nearest = face.slope & 7u;
-    let cells = face.slope >> SLOPE_CELLS;
+    let cells = cells_to_sample(face.slope);
     let rise = abs(face.normal[nearest / 2u]);
     var at = cell;
     for (var k = 1u; k <= cells; k++) {

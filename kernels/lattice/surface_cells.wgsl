@@ -26,6 +26,8 @@ const FULL_AT_SLOPE = 14u;
 // Bits of the flags of a cell: the neighbour through a face is not fluid; the cell is not fluid.
 const FACES = 63u;
 const SOLID = 128u;
+// The free-slip faces of the domain, one bit each for x-, x+, ...
+override FREE_SLIP: u32;
 
 // The solid in a cell, with its place in the planes.
 struct Solid {
@@ -50,9 +52,25 @@ fn solid_at(cell: vec3<u32>) -> Solid {
     return solid_of(at.x - 1u, at.y);
 }
 
+// The faces of a cell that are free-slip faces of the domain, one bit each: beyond them the domain continues as its mirror image.
+fn mirrors_of(cell: vec3<u32>) -> u32 {
+    let low = cell == vec3(0u);
+    let high = cell + 1u == vec3(CELLS_X, CELLS_Y, CELLS_Z);
+    let x = select(0u, 1u, low.x) | select(0u, 2u, high.x);
+    let y = select(0u, 4u, low.y) | select(0u, 8u, high.y);
+    let z = select(0u, 16u, low.z) | select(0u, 32u, high.z);
+    return (x | y | z) & FREE_SLIP;
+}
+
 // Whether a cell lies in the domain, away from walls.
 fn may_have_face(cell: vec3<u32>) -> bool {
-    return all(cell < vec3(CELLS_X, CELLS_Y, CELLS_Z)) && (flags_of(cell) & (FACES | SOLID)) == 0u;
+    let walls = flags_of(cell) & (FACES | SOLID) & ~mirrors_of(cell);
+    return all(cell < vec3(CELLS_X, CELLS_Y, CELLS_Z)) && walls == 0u;
+}
+
+// The neighbour of a cell through a face, or its mirror image, the cell itself.
+fn beside(cell: vec3<u32>, face: u32) -> vec3<u32> {
+    return select(through(cell, face, 1u), cell, (mirrors_of(cell) & (1u << face)) != 0u);
 }
 
 // The cell at distance `n` through a face, also across a periodic face.

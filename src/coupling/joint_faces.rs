@@ -3,7 +3,7 @@
 use super::Coupled;
 use crate::{
     geometry::{Form, HalfSpace, Load, Part, Pose, Shape, area_of, corners, outer},
-    rock::{Period, contact::Placed},
+    rock::{Period, Periods, contact::Placed},
 };
 use glam::DVec3;
 use std::collections::HashMap;
@@ -35,7 +35,7 @@ impl Coupled<'_> {
         let setup = &self.setup().setup.blocks;
         let poses = Poses {
             poses: &self.blocks().poses(),
-            period: self.blocks().period(),
+            periods: self.blocks().periods(),
         };
         let all = 0..setup.len();
         let found = neighbour_parts(|n| &*setup[n].shape, poses, block, (all, distance));
@@ -73,7 +73,13 @@ pub(super) struct NeighbourPart {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Poses<'a> {
     pub poses: &'a [Pose],
-    pub period: Option<Period>,
+    pub periods: Option<&'a Periods>,
+}
+
+impl Poses<'_> {
+    fn period(&self) -> Option<Period> {
+        self.periods.map(|periods| periods.period)
+    }
 }
 
 /// A uniform grid of blocks, which finds the neighbours of a block without visiting all blocks.
@@ -100,11 +106,11 @@ impl<'a> NearBlocks<'a> {
         let least = 2.0 * usual + distance;
         let count = [0, 1, 2].map(|axis| {
             let period = poses
-                .period
+                .period()
                 .filter(|period| period.size[axis].is_finite())?;
             Some(((period.size[axis] / least) as i64).max(1))
         });
-        let cell = DVec3::from([0, 1, 2].map(|axis| match (count[axis], poses.period) {
+        let cell = DVec3::from([0, 1, 2].map(|axis| match (count[axis], poses.period()) {
             (Some(count), Some(period)) => period.size[axis] / count as f64,
             _ => least,
         }));
@@ -124,7 +130,7 @@ impl<'a> NearBlocks<'a> {
 
     fn cell_of(&self, block: usize) -> [i64; 3] {
         let centre = self.poses.poses[block].centre;
-        let place = match self.poses.period {
+        let place = match self.poses.period() {
             Some(period) => period.wrapped(centre) - period.origin,
             None => centre,
         };
@@ -155,10 +161,10 @@ impl<'a> NearBlocks<'a> {
 }
 
 /// The parts of the blocks, solids and walls `others` that may lie within `distance` (m) of a block, in all periodic images,
-/// and the parts of its own images.
+/// and the parts of its own images. Along an axis that a block fills, it has no images.
 pub(super) fn neighbour_parts<'a>(
     shape: impl Fn(usize) -> &'a Shape,
-    Poses { poses, period }: Poses<'_>,
+    Poses { poses, periods }: Poses<'_>,
     block: usize,
     (others, distance): (impl IntoIterator<Item = usize>, f64),
 ) -> Vec<NeighbourPart> {
@@ -168,8 +174,8 @@ pub(super) fn neighbour_parts<'a>(
         let pose = &poses[other];
         let limit = reach + shape(other).radius();
         let apart = pose.centre - centre;
-        let offsets = match period {
-            Some(period) => period.image_shifts(apart, limit),
+        let offsets = match periods {
+            Some(periods) => periods.image_shifts([block, other], apart, limit),
             None => vec![DVec3::ZERO],
         };
         for offset in offsets {
@@ -298,9 +304,13 @@ mod tests {
             Some(period([f64::INFINITY, 7.0, f64::INFINITY])),
         ];
         for period in periods {
+            let periods = period.map(|period| Periods {
+                period,
+                filled: vec![[false; 3]; 400],
+            });
             let poses = Poses {
                 poses: &poses,
-                period,
+                periods: periods.as_ref(),
             };
             let near = NearBlocks::new(|n| shape(n).radius(), poses, 0.1);
             let mut fewest = usize::MAX;

@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     geometry::{Form, Load, Pose, Shape, area_of, corners, outer},
-    rock::{Period, contact::Placed},
+    rock::{Periods, contact::Placed},
     sph::{Body, Scheme, Setup, Side},
 };
 use glam::DVec3;
@@ -30,7 +30,7 @@ pub(crate) struct JointSeal {
     loaded: Vec<bool>,
     /// Whether each block deforms.
     deforms: Vec<bool>,
-    period: Option<Period>,
+    periods: Option<Periods>,
     /// Particle spacing, m.
     spacing: f64,
     deficit: KernelDeficit,
@@ -80,7 +80,7 @@ impl JointSeal {
     /// A seal for blocks of these shapes in the water of `setup`; `requested` marks the blocks whose loads are needed.
     pub fn new(
         shapes: Vec<Arc<Shape>>,
-        period: Option<Period>,
+        periods: Option<Periods>,
         setup: &Setup,
         requested: &[bool],
     ) -> Self {
@@ -93,7 +93,7 @@ impl JointSeal {
                 .map(|requested| *requested && has_boundary_particles)
                 .collect(),
             deforms: setup.bodies.iter().map(Body::deforms).collect(),
-            period,
+            periods,
             spacing: setup.spacing,
             deficit: KernelDeficit::new(setup),
             weight: setup.density * setup.gravity,
@@ -110,7 +110,7 @@ impl JointSeal {
         };
         let all = Poses {
             poses,
-            period: self.period,
+            periods: self.periods.as_ref(),
         };
         let radius = |block: usize| self.shapes[block].radius();
         let near = NearBlocks::new(radius, all, self.deficit.max_height());

@@ -27,6 +27,11 @@ const MAX_WAVE_SPEED_RATIO: f64 = 2.0;
 /// friction and water reduce.
 const FALL_SPEED_RATIO: f64 = 1.5;
 
+/// Young's modulus over ρ₀c₀² of the water, and density over that of the water, below which a deformable block is excited by the
+/// water: cubes were at 5 and 1.2, and not at 17 or 1.5.
+const SOFT: f64 = 10.0;
+const LIGHT: f64 = 1.5;
+
 /// Difference of the size of a tank, or of the position of a face, from a whole number of spacings from which the water starts too
 /// far from the wall, or too near.
 const WALL_TOLERANCE: f64 = 0.05;
@@ -65,6 +70,7 @@ pub async fn particle_advice(
     check_walls(setup, positions, &mut warn);
     check_faces(scene, blocks, state, setup, positions, &mut warn);
     check_support(scene, blocks, setup, &mut warn);
+    check_soft_blocks(blocks, setup, &mut warn);
     check_speeds(scene, blocks, setup, positions, &mut warn);
     check_probes(scene, blocks, setup, positions, &mut warn);
     let free = || {
@@ -190,6 +196,27 @@ fn check_walls(setup: &Setup, positions: &[DVec3], warn: &mut impl FnMut(String,
                 ),
             );
         }
+    }
+}
+
+/// Warns of deformable blocks that are so soft and light that the pressures of successive exchanges excite their strain.
+fn check_soft_blocks(blocks: &BlockSetup, setup: &Setup, warn: &mut impl FnMut(String, String)) {
+    let modulus = SOFT * setup.density * setup.sound_speed.powi(2);
+    let is_unstable = |block: &&Block| {
+        let material = &blocks.setup.materials[block.material];
+        let elastic = material.elastic.filter(|_| block.deformable.is_some());
+        elastic.is_some_and(|elastic| elastic.youngs_modulus < modulus)
+            && material.density < LIGHT * setup.density
+    };
+    if let Some(block) = blocks.setup.blocks.iter().find(is_unstable) {
+        warn(
+            "particles".into(),
+            format!(
+                "`{}` deforms, is soft, and is not much denser than the water: its strain and the pressure of the water excite each                  other; take a Young's modulus of {modulus:.1e} Pa at least, or a density of {:.0} kg/m³, or make it rigid",
+                block.name,
+                LIGHT * setup.density
+            ),
+        );
     }
 }
 

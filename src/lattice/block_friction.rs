@@ -33,8 +33,8 @@ pub struct BlockFace {
     pub fraction: f32,
     /// Outward normal.
     pub normal: [f32; 3],
-    /// Not used.
-    pub pad: f32,
+    /// Its area, in faces of a cell. At edges it includes what lies beyond the columns with full cells.
+    pub area: f32,
 }
 
 /// The faces of blocks for the wall model.

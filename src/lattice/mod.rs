@@ -93,4 +93,5 @@ pub use statistics::{Statistic, Statistics, StatisticsPass, StatisticsState};
 pub use surface_faces::SurfaceFaces;
 pub use synthetic_turbulence::{FaceMode, FourierMode, SyntheticTurbulence, TurbulentFace};
 pub use traffic::{bytes_per_cell, bytes_per_step};
+pub(crate) use wall_model::model_share;
 pub use wall_model::{WallCell, WallStress, Walls};

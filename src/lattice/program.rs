@@ -206,9 +206,8 @@ pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -
         )
         .slot(
             "mirror",
-            match setup.has_surface_friction()
-                && setup.faces.as_flattened().contains(&Face::FreeSlip)
-            {
+            // What leaves blocks at a free-slip face is reflected by the face after their friction.
+            match entry == "surface_friction" && free_slip(setup) != 0 {
                 true => "mirror_free_slip",
                 false => "mirror_none",
             },
@@ -231,6 +230,13 @@ pub fn single_cells(setup: &Setup, bindings: impl Into<Bindings>, entry: &str) -
         .slot("neighbour_flags", flags)
         .slot("equilibrium", equilibrium(setup.equilibrium))
         .slot("cell_force", force)
+}
+
+/// The free-slip faces of the domain, one bit each for x−, x+, ….
+fn free_slip(setup: &Setup) -> u32 {
+    let faces = setup.faces.as_flattened().iter().enumerate();
+    let free_slip = faces.filter(|(_, face)| **face == Face::FreeSlip);
+    free_slip.fold(0, |bits, (n, _)| bits | 1 << n)
 }
 
 /// The file of an equilibrium.
@@ -262,6 +268,7 @@ pub fn constants(setup: &Setup, grid: &Grid, odd: bool) -> Vec<(&'static str, f6
         ("BRICK_Z", grid.brick[2].into()),
         ("SURFACE_PLANES", setup.surface_planes().into()),
         ("SLOPING", setup.has_sloping_friction().into()),
+        ("FREE_SLIP", free_slip(setup).into()),
         ("ODD", f64::from(u8::from(odd))),
         ("GUARD_ODD", f64::from(u8::from(odd))),
         ("MAX_SPEED_SQUARED", setup.max_speed * setup.max_speed),

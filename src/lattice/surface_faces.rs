@@ -12,6 +12,13 @@ use std::collections::{HashMap, HashSet};
 const LARGEST_SLOPE: f64 = 1.2;
 /// Largest sum of the differences of height to the columns on both sides: more at edges.
 const FLAT: f64 = 0.2;
+/// Full cells lie inside the surface, and their columns reach the edges of a convex solid only up to this distance, cells: the mean
+/// over prisms with 3 to 48 sides at all angles and positions.
+const EDGE_DEPTH: f64 = 1.2;
+/// Cells beside an edge up to which other solid makes the gap too narrow for a stream, and the first of them that may hold some of
+/// the solid with the edge.
+const EDGE_GAP: usize = 4;
+const EDGE_CELLS: usize = 2;
 /// Cells of a column from the surface to full or empty ones, and up to the one whose velocity the law reads.
 const PARTIAL: usize = 4;
 const REACH: usize = 12;
@@ -57,6 +64,10 @@ pub(super) struct SlopingCell {
     /// What the populations that leave get, w c·slip, and the sum of this.
     pub slip: [f32; 3],
     pub given: f32,
+    /// Area of the face that acts on the cell, in faces of a cell; 0 below the top of a column.
+    pub area: f32,
+    /// Not used.
+    pub pad: [f32; 3],
 }
 
 /// A cell of fluid near the surface, as `surface_friction.wgsl` has it.
@@ -88,6 +99,34 @@ struct Solids<'a> {
     fractions: HashMap<u32, f64>,
     /// Fluid cells at plane walls, which have a model of their own.
     plane: HashSet<u32>,
+}
+
+/// A column of cells at the surface.
+#[derive(Clone, Copy, Debug)]
+enum Column {
+    /// Height of the solid above the centre of a cell, in a column that is solid, then cut, then fluid.
+    Height(f64),
+    /// There are no full cells below.
+    Low,
+    /// There are no empty cells above, or the column leaves the domain.
+    High,
+}
+
+impl Column {
+    fn height(self) -> Option<f64> {
+        match self {
+            Self::Height(height) => Some(height),
+            Self::Low | Self::High => None,
+        }
+    }
+}
+
+/// The surface at a column, along an axis across it.
+struct Profile {
+    /// Slope of the surface, where it is flat.
+    slope: Option<f64>,
+    /// Distance by which the surface is longer than its part in the columns with full cells, cells.
+    longer: f64,
 }
 
 /// A face at a cell.
@@ -175,37 +214,73 @@ impl Solids<'_> {
         })
     }
 
-    /// Height of the solid above the centre of a cell, along `out`, where its column is solid, then cut, then fluid.
-    fn height(&self, cell: [u32; 3], axis: usize, out: i32) -> Option<f64> {
+    /// The column of a cell along `out`.
+    fn column(&self, cell: [u32; 3], axis: usize, out: i32) -> Column {
         let mut height = self.fraction(cell) - 0.5;
-        for (by, end) in [(out, 0.0), (-out, 1.0)] {
+        for (by, end, without) in [(out, 0.0, Column::High), (-out, 1.0, Column::Low)] {
             let (mut at, mut fraction) = (cell, self.fraction(cell));
             for passed in 0.. {
                 if fraction == end {
                     break;
                 }
                 if passed == PARTIAL {
-                    return None;
+                    return without;
                 }
-                at = self.neighbour(at, Self::step(axis, by))?;
+                let Some(next) = self.neighbour(at, Self::step(axis, by)) else {
+                    return Column::High;
+                };
+                at = next;
                 fraction = self.fraction(at);
                 height += fraction - end;
             }
         }
-        Some(height)
+        Column::Height(height)
     }
 
-    /// Slope of the surface along an axis, where it is flat.
-    fn slope(&self, cell: [u32; 3], axis: usize, out: i32, along: usize) -> Option<f64> {
-        let side = |by| {
-            let other = self.mirrored(cell, Self::step(along, by))?;
-            self.height(other, axis, out)
-        };
-        let height = self.height(cell, axis, out)?;
-        let (before, after) = (side(-1)?, side(1)?);
-        let slope = 0.5 * (after - before);
-        let is_flat = (before + after - 2.0 * height).abs() <= FLAT && slope.abs() < LARGEST_SLOPE;
-        is_flat.then_some(slope)
+    /// The surface along an axis, from the columns on both sides of one with this height.
+    fn profile(
+        &self,
+        cell: [u32; 3],
+        (axis, out): (usize, i32),
+        height: f64,
+        along: usize,
+    ) -> Profile {
+        let sides = [-1, 1].map(|by| {
+            let other = self.mirrored(cell, Self::step(along, by));
+            other.map_or(Column::High, |other| self.column(other, axis, out))
+        });
+        if let [Column::Height(before), Column::Height(after)] = sides {
+            let slope = 0.5 * (after - before);
+            let is_flat =
+                (before + after - 2.0 * height).abs() <= FLAT && slope.abs() < LARGEST_SLOPE;
+            let turn = (height - before).atan() - (after - height).atan();
+            return Profile {
+                slope: is_flat.then_some(slope),
+                longer: 2.0 * EDGE_DEPTH * (0.5 * turn).tan(),
+            };
+        }
+        // Beyond an edge the columns of this face end, and those of the face around it, if fluid lies in front of that one.
+        let faces = sides.into_iter().zip([-1, 1]).map(|(side, by)| match side {
+            Column::Low if self.has_gap(cell, Self::step(along, by)) => 2.0,
+            Column::Low => 1.0,
+            Column::Height(_) | Column::High => 0.0,
+        });
+        Profile {
+            slope: None,
+            longer: EDGE_DEPTH * faces.sum::<f64>(),
+        }
+    }
+
+    /// Whether the cells next to an edge hold no other solid.
+    fn has_gap(&self, cell: [u32; 3], step: [i32; 3]) -> bool {
+        let mut at = cell;
+        (1..=EDGE_GAP).all(|k| {
+            let Some(next) = self.neighbour(at, step) else {
+                return false;
+            };
+            at = next;
+            !self.survey.is_solid(at) && (k <= EDGE_CELLS || self.fraction(at) == 0.0)
+        })
     }
 
     /// The face at a cell that the surface cuts, or that lies full under it.
@@ -234,15 +309,15 @@ impl Solids<'_> {
         axes.sort_by(|&a, &b| less[b].abs().total_cmp(&less[a].abs()));
         let [first, second, _] = axes;
         let out_along = |axis: usize| if less[axis] > 0.0 { 1 } else { -1 };
-        let column = |axis| Some((axis, self.height(cell, axis, out_along(axis))?));
+        let column = |axis| Some((axis, self.column(cell, axis, out_along(axis)).height()?));
         let other = || (less[second].abs() > DIAGONAL * less[first].abs()).then_some(second);
         let (axis, height) = column(first).or_else(|| column(other()?))?;
         let out = out_along(axis);
         // At edges, the direction towards less solid.
         let mut normal = less;
         let [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
-        let slopes = [a, b].map(|along| self.slope(cell, axis, out, along));
-        if let [Some(along_a), Some(along_b)] = slopes {
+        let profiles = [a, b].map(|along| self.profile(cell, (axis, out), height, along));
+        if let [Some(along_a), Some(along_b)] = [profiles[0].slope, profiles[1].slope] {
             normal[axis] = f64::from(out);
             (normal[a], normal[b]) = (-along_a, -along_b);
         }
@@ -270,6 +345,7 @@ impl Solids<'_> {
                 continue;
             }
             let face = (2 * axis) as u32 + u32::from(out > 0);
+            let area = 1.0 / rise + profiles[0].longer + profiles[1].longer;
             let slope = SlopingCell {
                 slope: face
                     | if top { TOP } else { 0 }
@@ -279,6 +355,7 @@ impl Solids<'_> {
                 sample: self.grid().scalar_of(at),
                 distance: distance as f32,
                 normal: normal.as_vec3().to_array(),
+                area: if top { area.max(0.0) as f32 } else { 0.0 },
                 ..SlopingCell::default()
             };
             return Some(Found { slope, above });
@@ -417,6 +494,7 @@ mod tests {
             ("outer", offset_of!(SlopingCell, outer)),
             ("slip", offset_of!(SlopingCell, slip)),
             ("given", offset_of!(SlopingCell, given)),
+            ("area", offset_of!(SlopingCell, area)),
         ];
         check::<SlopingCell>(&module, "SlopingCell", &sloping).unwrap();
         let near = [

@@ -223,7 +223,7 @@ impl Lattice {
                 stress: stress.to_array(),
                 fraction: slope.cells() as f32 - 0.5 - slope.distance / rise,
                 normal: slope.normal,
-                pad: 0.0,
+                area: slope.area,
             }
         };
         Ok(tops.map(face).collect())

@@ -177,7 +177,7 @@ impl Walls {
 }
 
 /// Share of the law at a friction velocity, as `law_of_the_wall.wgsl` has it.
-pub(super) fn model_share(friction: f32, nu: f64) -> f32 {
+pub(crate) fn model_share(friction: f32, nu: f64) -> f32 {
     let s = ((0.5 * friction / nu as f32 - 3.0) / 3.0).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }

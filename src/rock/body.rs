@@ -219,23 +219,27 @@ impl State {
         }
     }
 
-    /// Puts the block to sleep at the end of a step of `dt` (s), if it has been slow for long enough.
-    pub fn update_sleep(&mut self, body: &Body, sleep: &Sleep, dt: f64) {
+    /// Puts the block to sleep at the end of a step of `dt` (s), if it has been slow for long enough. Returns the kinetic energy
+    /// that this removes, J.
+    pub fn update_sleep(&mut self, body: &Body, sleep: &Sleep, dt: f64) -> f64 {
         if self.asleep {
-            return;
+            return 0.0;
         }
         if self.fastest(body.radius) >= sleep.speed {
             self.slow = 0.0;
-            return;
+            return 0.0;
         }
         self.slow += dt;
-        if self.slow >= sleep.after {
-            self.asleep = true;
-            self.slept = self.pulls();
-            self.velocity = DVec3::ZERO;
-            self.momentum = DVec3::ZERO;
-            self.spin = DVec3::ZERO;
+        if self.slow < sleep.after {
+            return 0.0;
         }
+        let removed = self.kinetic(body.mass);
+        self.asleep = true;
+        self.slept = self.pulls();
+        self.velocity = DVec3::ZERO;
+        self.momentum = DVec3::ZERO;
+        self.spin = DVec3::ZERO;
+        removed
     }
 }
 

@@ -254,24 +254,22 @@ impl Blocks {
         periods.map_or([false; 3], |periods| periods.filled[block])
     }
 
-    /// Shifts, m, to those images of the second of two blocks, at `separation` (m) from the first, that are within `range`
-    /// (m) of the first along each axis. Along an axis that one of the blocks fills, only the shift to the nearest image,
-    /// since the filling block is the same in all periods.
+    /// The period, and the axes that blocks fill.
+    pub(crate) fn periods(&self) -> Option<&Periods> {
+        self.periods.as_ref()
+    }
+
+    /// The shifts of [`Periods::image_shifts`].
     pub(crate) fn image_shifts(
         &self,
         blocks: [usize; 2],
         separation: DVec3,
         range: f64,
     ) -> Vec<DVec3> {
-        let Some(periods) = &self.periods else {
-            return vec![DVec3::ZERO];
-        };
-        let filled = |axis: usize| blocks.iter().any(|&block| periods.filled[block][axis]);
-        let nearest = periods.period.nearest(separation);
-        let mut image_shifts = periods.period.image_shifts(separation, range);
-        image_shifts
-            .retain(|shift| (0..3).all(|axis| !filled(axis) || shift[axis] == nearest[axis]));
-        image_shifts
+        match &self.periods {
+            Some(periods) => periods.image_shifts(blocks, separation, range),
+            None => vec![DVec3::ZERO],
+        }
     }
 
     /// Part of each of [`Blocks::aabbs`], and the shift of its image, m.

@@ -33,8 +33,8 @@ pub struct EnergyLedger {
     pub friction: f64,
     /// Dissipated by the dashpots of the contacts.
     pub dashpot: f64,
-    /// Dissipated by the mass damping α, and by the viscous stresses of deformable blocks in a fluid
-    /// ([`Blocks::set_load_interval`](super::Blocks::set_load_interval)).
+    /// Dissipated by the mass damping α, by the viscous stresses of deformable blocks in a fluid
+    /// ([`Blocks::set_load_interval`](super::Blocks::set_load_interval)), and by blocks that fall asleep.
     pub mass_damping: f64,
     /// Dissipated by films of fluid between blocks that nearly touch.
     pub film: f64,
@@ -140,6 +140,11 @@ impl WorkSums {
             self.work[k] += 0.5 * dt * (self.power[k] + power);
         }
         self.power = power;
+    }
+
+    /// Adds the kinetic energy (J) that a block loses when it falls asleep.
+    pub fn add_sleep(&mut self, removed: f64) {
+        self.work[1] += removed;
     }
 
     /// Sets the power of changed loads, under which the next step begins at the time `t` (s).

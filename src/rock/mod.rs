@@ -57,6 +57,7 @@ pub use blocks::Blocks;
 pub use contact_list::ContactPoint;
 pub use energy::EnergyLedger;
 pub use period::Period;
+pub(crate) use period::Periods;
 pub use setup::{
     Block, Deformable, FixedPoint, Guide, Material, Motion, PairMaterial, PointLoad, Setup, Sleep,
 };

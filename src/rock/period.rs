@@ -194,7 +194,7 @@ pub(super) struct Image {
 
 /// The period, and the axes along which blocks fill it.
 #[derive(Clone, Debug)]
-pub(super) struct Periods {
+pub(crate) struct Periods {
     pub period: Period,
     /// Axes along which each block is longer than the period and has no images.
     pub filled: Vec<[bool; 3]>,
@@ -203,7 +203,12 @@ pub(super) struct Periods {
 impl Periods {
     /// Moves the boxes of all parts into the period, and adds their images in the neighbouring periods that reach the
     /// region of the boxes. `block`: block of each part.
-    pub fn images(&self, states: &[State], block: &[u32], aabbs: &mut Vec<Aabb>) -> Vec<Image> {
+    pub(super) fn images(
+        &self,
+        states: &[State],
+        block: &[u32],
+        aabbs: &mut Vec<Aabb>,
+    ) -> Vec<Image> {
         let mut images: Vec<Image> = Vec::with_capacity(aabbs.len());
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for ((part, aabb), &block) in (0..).zip(aabbs.iter_mut()).zip(block) {
@@ -249,9 +254,26 @@ impl Periods {
         images
     }
 
+    /// Shifts, m, to those images of the second of two blocks, at `separation` (m) from the first, that are within `range`
+    /// (m) of the first along each axis. Along an axis that one of the blocks fills, only the shift to the nearest image,
+    /// since the filling block is the same in all periods.
+    pub(crate) fn image_shifts(
+        &self,
+        blocks: [usize; 2],
+        separation: DVec3,
+        range: f64,
+    ) -> Vec<DVec3> {
+        let filled = |axis: usize| blocks.iter().any(|&block| self.filled[block][axis]);
+        let nearest = self.period.nearest(separation);
+        let mut image_shifts = self.period.image_shifts(separation, range);
+        image_shifts
+            .retain(|shift| (0..3).all(|axis| !filled(axis) || shift[axis] == nearest[axis]));
+        image_shifts
+    }
+
     /// The components of a periodic offset that identify a pair while a block crosses the boundary: those along
     /// axes that neither block fills.
-    pub fn lasting(&self, blocks: [u32; 2], offset: [i32; 3]) -> [i32; 3] {
+    pub(super) fn lasting(&self, blocks: [u32; 2], offset: [i32; 3]) -> [i32; 3] {
         let [a, b] = blocks.map(|block| self.filled[block as usize]);
         std::array::from_fn(|axis| if a[axis] || b[axis] { 0 } else { offset[axis] })
     }

@@ -219,7 +219,8 @@ impl Blocks {
         if let Some(sleep) = &sleep {
             for (body, state) in self.bodies.iter().zip(&mut self.states) {
                 if body.may_sleep() {
-                    state.update_sleep(body, sleep, dt);
+                    self.work_sums
+                        .add_sleep(state.update_sleep(body, sleep, dt));
                 }
             }
         }

@@ -148,7 +148,7 @@ impl SphFluid {
             wet: vec![true; setup.bodies.len()],
             device: device.clone(),
             queue: queue.clone(),
-            joint_seal: JointSeal::new(shapes, rock.blocks().period(), setup, &loaded),
+            joint_seal: JointSeal::new(shapes, rock.blocks().periods().cloned(), setup, &loaded),
             longest: longest_exchange(&rock, setup.density * setup.sound_speed),
             sensors: Sensors::of(scene, setup, blocks),
             particles,

@@ -3,7 +3,7 @@
 use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{
     Result,
-    lattice::{BlockFace, WallCell, WallStress, in_plane},
+    lattice::{BlockFace, WallCell, WallStress, in_plane, model_share},
     output::{Array, Surface},
     scene::{Axis, Face},
 };
@@ -38,6 +38,8 @@ pub struct WallFriction {
     pub position: [f64; 3],
     /// Unit normal into the fluid.
     pub normal: [f64; 3],
+    /// Area, m². At an edge of a sloping face it includes what lies beyond the columns with full cells.
+    pub area: f64,
     /// Object to which the wall belongs.
     pub place: WallPlace,
     /// Stress along the wall, Pa. On a no-slip wall it alternates from step to step at low viscosity.
@@ -53,7 +55,7 @@ pub struct WallFriction {
 /// The walls on which the wall model of a scene acts, and the friction there.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WallFrictions {
-    /// Each wall next to a cell; its area is the square of the cell's edge over the largest component of the normal.
+    /// Each wall next to a cell, without those near a block, which are no-slip.
     pub walls: Vec<WallFriction>,
     /// Edge of a cell, m.
     pub cell: f64,
@@ -82,19 +84,27 @@ impl Simulation {
         let lattice = &fluid.lattice;
         let surfaces = lattice.surface_faces(&fluid.device, &fluid.queue).await?;
         let walls = &lattice.geometry().walls;
+        // Near a block the share is that of no slip, whatever the law gives.
+        let nu = lattice.setup().nu;
+        let is_open = |friction, share| share > 0.0 || model_share(friction, nu) == 0.0;
         let each = walls.cells.iter().zip(&stresses);
+        let each = each.filter(|(_, stress)| is_open(stress.friction, stress.share));
         let on_walls = each.map(|(wall, stress)| fluid.wall_friction(wall, stress));
         let on_face = |face, place| fluid.face_friction(face, place);
-        let on_surfaces = surfaces.iter().map(|face| on_face(face, WallPlace::Solids));
+        let open = surfaces
+            .iter()
+            .filter(|face| is_open(face.friction, face.share));
+        let on_surfaces = open.map(|face| on_face(face, WallPlace::Solids));
+        let on_walls: Vec<_> = on_walls.chain(on_surfaces).collect();
         let on_blocks = blocks
             .faces
             .iter()
             .map(|face| on_face(face, WallPlace::Blocks));
         let share = |some: usize, all: u64| some as f64 / all.max(1) as f64;
         Ok(WallFrictions {
-            walls: on_walls.chain(on_surfaces).chain(on_blocks).collect(),
+            area_share: share(on_walls.len(), walls.area),
+            walls: on_walls.into_iter().chain(on_blocks).collect(),
             cell: fluid.units.cell,
-            area_share: share(walls.cells.len() + surfaces.len(), walls.area),
             block_area_share: share(blocks.faces.len(), blocks.area),
         })
     }
@@ -147,6 +157,7 @@ impl LatticeFluid {
         WallFriction {
             position,
             normal,
+            area: units.cell.powi(2),
             place: face.map_or(WallPlace::Solids, |(face, _)| WallPlace::Face(face)),
             stress,
             friction_velocity,
@@ -166,6 +177,7 @@ impl LatticeFluid {
         WallFriction {
             position,
             normal,
+            area: f64::from(face.area) * units.cell.powi(2),
             place,
             stress: face
                 .stress

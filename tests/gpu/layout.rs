@@ -78,6 +78,7 @@ fn structures_of_the_lattice() {
         ("stress", offset_of!(BlockFace, stress)),
         ("fraction", offset_of!(BlockFace, fraction)),
         ("normal", offset_of!(BlockFace, normal)),
+        ("area", offset_of!(BlockFace, area)),
     ];
     let blocks = linked("block_friction").module;
     check::<BlockFace>(&blocks, "BlockFace", &face).unwrap();

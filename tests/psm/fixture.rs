@@ -133,18 +133,19 @@ impl Subject {
 
     /// About two thirds of the bricks that contain fluid, in arbitrary order.
     pub fn some_bricks(&self) -> Vec<u32> {
-        let geometry = self.lattice.geometry();
-        let all = geometry
-            .mixed
-            .iter()
-            .chain(&geometry.plain)
-            .chain(&geometry.surface)
-            .copied();
+        let all = self.all_bricks().into_iter();
         let mut some: Vec<u32> = all
             .filter(|&brick| noise(7 * brick as usize) < 0.4)
             .collect();
         some.sort_by(|a, b| noise(*a as usize + 500).total_cmp(&noise(*b as usize + 500)));
         some
+    }
+
+    /// All bricks with fluid cells.
+    pub fn all_bricks(&self) -> Vec<u32> {
+        let geometry = self.lattice.geometry();
+        let lists = [&geometry.mixed, &geometry.plain, &geometry.surface];
+        lists.into_iter().flatten().copied().collect()
     }
 
     /// Puts random solids in the cells of these bricks.

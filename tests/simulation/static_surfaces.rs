@@ -190,6 +190,133 @@ fn friction_at_sloping_faces_conserves_mass() {
     }
 }
 
+/// Force on a rod along x between free-slip faces, N: at rest in a stream, or driven through still water.
+fn friction_of_rod(rig: &Rig, angle: f64, stream: f64) -> f64 {
+    let scene = kit::scene::read(&format!(
+        r#"
+        domain = {{ size = [0.2, 1.6, 1.6], cell = 0.05 }}
+        fluid = {{ viscosity = 1e-6 }}
+        numerics = {{ velocity_scale = 1.4, mach = 0.06, eddy_viscosity = "wale", wall_model = "werner_wengle" }}
+        initial = {{ velocity = [{stream}, 0, 0] }}
+        run.steps = 120
+        boundaries.y_min = {{ kind = "free_slip" }}
+        boundaries.y_max = {{ kind = "free_slip" }}
+        boundaries.z_min = {{ kind = "free_slip" }}
+        boundaries.z_max = {{ kind = "free_slip" }}
+        [[materials]]
+        name = "rock"
+        density = 2650
+        normal_stiffness = 1e6
+        friction = 30
+        [[blocks]]
+        kind = "box"
+        size = [0.2, 0.6, 0.6]
+        position = [0.1, 0.813, 0.807]
+        rotation = {{ axis = [1, 0, 0], angle = {angle} }}
+        motion = "driven"
+        velocity = [{}, 0, 0]
+        "#,
+        stream - 1.0
+    ));
+    let mut simulation = rig.simulation(&scene.unwrap()).unwrap();
+    rig.wait(simulation.advance(60)).unwrap();
+    let mut mean = 0.0;
+    for _ in 0..60 {
+        rig.wait(simulation.advance(1)).unwrap();
+        mean += simulation.coupled().unwrap().external_load()[0]
+            .flow
+            .force
+            .x
+            / 60.0;
+    }
+    mean
+}
+
+/// Noise in full cells that move brings fluid to the edges, which have no slip, so that oblique rods in motion have up to two fifths
+/// more friction.
+#[test]
+fn a_rod_in_motion_has_the_friction_of_one_at_rest_in_a_stream() {
+    let rig = Rig::new();
+    for (angle, limit) in [(0.0, 0.05), (26.565, 0.5), (45.0, 0.5)] {
+        let [at_rest, moves] = [1.0, 0.0].map(|stream| friction_of_rod(&rig, angle, stream));
+        println!("{angle}: {at_rest} N at rest, {moves} N in motion");
+        assert!(at_rest > 0.0);
+        assert_near(moves / at_rest, 1.0, limit);
+    }
+}
+
+/// Between free-slip faces a bed has the friction of the middle of a wide one, over its whole width.
+#[test]
+fn free_slip_faces_continue_a_bed() {
+    let rig = Rig::new();
+    let force = |sides: &str, width: f64| {
+        let scene = kit::scene::read(&format!(
+            r#"
+            domain = {{ size = [0.4, 0.2, 1.2], cell = 0.05 }}
+            fluid = {{ viscosity = 1e-6 }}
+            numerics = {{ velocity_scale = 1.4, mach = 0.06, eddy_viscosity = "wale", wall_model = "werner_wengle" }}
+            initial = {{ velocity = [1, 0, 0] }}
+            run.steps = 100
+            boundaries.y_min = {{ kind = "{sides}" }}
+            boundaries.y_max = {{ kind = "{sides}" }}
+            boundaries.z_min = {{ kind = "wall" }}
+            boundaries.z_max = {{ kind = "free_slip" }}
+            [[materials]]
+            name = "rock"
+            density = 2650
+            normal_stiffness = 1e6
+            friction = 30
+            [[blocks]]
+            kind = "box"
+            size = [0.4, {width}, 0.8]
+            position = [0.2, 0.1, 0.02]
+            motion = "driven"
+            velocity = [0, 0, 0]
+            "#
+        ));
+        let mut simulation = rig.simulation(&scene.unwrap()).unwrap();
+        rig.wait(simulation.advance(100)).unwrap();
+        simulation.coupled().unwrap().external_load()[0]
+            .flow
+            .force
+            .x
+    };
+    assert_near(force("free_slip", 0.3) / force("periodic", 0.2), 1.0, 1e-3);
+}
+
+/// The law acts on the whole area of a prism, although columns of cells end before its edges.
+#[test]
+fn the_wall_model_acts_on_the_whole_area_of_a_turned_prism() {
+    let rig = Rig::new();
+    for angle in [20, 30, 45] {
+        let scene = kit::scene::read(&format!(
+            r#"
+            domain = {{ size = [2.4, 2.4, 0.3], cell = 0.05 }}
+            fluid = {{ viscosity = 1e-6 }}
+            numerics = {{ velocity_scale = 1, eddy_viscosity = "wale", wall_model = "reichardt" }}
+            initial = {{ velocity = [0, 0, 0.8] }}
+            run.steps = 4
+            [[materials]]
+            name = "rock"
+            density = 2650
+            normal_stiffness = 1e6
+            friction = 30
+            [[blocks]]
+            kind = "box"
+            size = [1.2, 1.2, 0.3]
+            position = [1.215, 1.23, 0.15]
+            rotation = {{ axis = [0, 0, 1], angle = {angle} }}
+            motion = "fixed"
+            "#
+        ));
+        let mut simulation = rig.simulation(&scene.unwrap()).unwrap();
+        rig.wait(simulation.advance(4)).unwrap();
+        let frictions = rig.wait(simulation.wall_friction()).unwrap();
+        let area: f64 = frictions.walls.iter().map(|wall| wall.area).sum();
+        assert_near(area / (4.0 * 1.2 * 0.3), 1.0, 0.05);
+    }
+}
+
 /// A bed that cuts cells up to a pressure face: the pressure wave of the start leaves, and the stream passes.
 #[test]
 fn a_stream_over_an_exact_bed_leaves_by_an_outlet() {

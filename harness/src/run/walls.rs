@@ -47,16 +47,20 @@ impl WallModelSummary {
 
 impl fmt::Display for WallModelSummary {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let blocks = match self.block_area_share {
-            0.0 => String::new(),
-            share => format!(" and {:.1} % of that of blocks", 100.0 * share),
+        let percent = |share: f64, of| {
+            (share > 0.0).then(|| format!("{:.1} % of the area of {of}", 100.0 * share))
         };
+        let on = [
+            percent(self.area_share, "walls"),
+            percent(self.block_area_share, "blocks"),
+        ];
+        let on: Vec<String> = on.into_iter().flatten().collect();
         write!(
             f,
-            "  wall model on {:.1} % of the area of walls{blocks}: y⁺ half a cell from them {:.1} on average, \
+            "  wall model on {}: y⁺ half a cell from them {:.1} on average, \
              {:.1} at most, stress {:.3e} Pa; the others have no slip (corners, convex edges, gaps under five cells, faces that lie across \
              cells, open and moving faces)",
-            100.0 * self.area_share,
+            on.join(" and "),
             self.y_plus_mean,
             self.y_plus_max,
             self.stress_mean
@@ -74,14 +78,6 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// Area of a wall over that of a side of a cell.
-fn sides(wall: &WallFriction) -> f64 {
-    1.0 / wall
-        .normal
-        .iter()
-        .fold(0.0, |most: f64, n| most.max(n.abs()))
-}
-
 /// A row of the table: the [`columns`] for each place that has the model.
 fn row(frictions: &WallFrictions, places: &[WallPlace]) -> Vec<f64> {
     let of = |place: &WallPlace| {
@@ -91,17 +87,15 @@ fn row(frictions: &WallFrictions, places: &[WallPlace]) -> Vec<f64> {
                 .iter()
                 .filter(move |wall| wall.place == *place)
         };
-        // Each area over that of a side of a cell: 1 along the grid.
-        let whole: f64 = own().map(sides).sum();
-        let mean = |value: &dyn Fn(&WallFriction) -> f64| match whole > 0.0 {
-            true => own().map(|wall| sides(wall) * value(wall)).sum::<f64>() / whole,
+        let area: f64 = own().map(|wall| wall.area).sum();
+        let mean = |value: &dyn Fn(&WallFriction) -> f64| match area > 0.0 {
+            true => own().map(|wall| wall.area * value(wall)).sum::<f64>() / area,
             false => 0.0,
         };
         let [x, y, z] = [0, 1, 2].map(|axis| mean(&|wall| wall.stress[axis]));
         let u = mean(&|wall| wall.friction_velocity);
         let y_plus = mean(&|wall| wall.y_plus);
         let largest = own().map(|wall| wall.y_plus).fold(0.0, f64::max);
-        let area = whole * frictions.cell * frictions.cell;
         [area, x, y, z, u, y_plus, largest]
     };
     places.iter().flat_map(of).collect()

@@ -1,5 +1,5 @@
 use super::*;
-use crate::geometry::Polyhedron;
+use crate::{geometry::Polyhedron, rock::Period};
 use glam::DQuat;
 use std::f64::consts::PI;
 
@@ -23,12 +23,12 @@ fn tank() -> Setup {
 fn loads(
     shapes: Vec<Arc<Shape>>,
     poses: &[Pose],
-    period: Option<Period>,
+    periods: Option<Periods>,
     level: impl Fn(DVec3) -> f64,
 ) -> Vec<Load> {
     let setup = tank();
     let requested = vec![true; shapes.len()];
-    let seal = JointSeal::new(shapes, period, &setup, &requested);
+    let seal = JointSeal::new(shapes, periods, &setup, &requested);
     let sealed = seal.find_joints(poses, &vec![true; poses.len()]);
     let pressure = |x: &DVec3| (1e4 * (level(*x) - x.z)).max(0.0);
     let pressures: Vec<f64> = sealed.rim_places().iter().map(pressure).collect();
@@ -72,9 +72,12 @@ fn uplift_falls_linearly_from_heel_to_toe() {
 /// spacing.
 #[test]
 fn joints_that_continue_across_the_period_have_no_rim() {
-    let period = Period {
-        origin: DVec3::ZERO,
-        size: DVec3::new(f64::INFINITY, 1.0, f64::INFINITY),
+    let periods = Periods {
+        period: Period {
+            origin: DVec3::ZERO,
+            size: DVec3::new(f64::INFINITY, 1.0, f64::INFINITY),
+        },
+        filled: vec![[false; 3]; 4],
     };
     let shapes = vec![
         cuboid(2.0, 1.0, 3.0),
@@ -95,10 +98,34 @@ fn joints_that_continue_across_the_period_have_no_rim() {
             let inside = x.x.abs() < 2.0;
             if inside { -9.0 } else { 3.0 }
         };
-        let found = loads(shapes.clone(), &poses, Some(period), level);
+        let found = loads(shapes.clone(), &poses, Some(periods.clone()), level);
         let both = found[0].force + found[1].force;
         assert!((both.z / 12e4 - 1.0).abs() < 0.05, "{gap}: {both}");
         assert!(both.x.abs() < 1e-6 * both.z, "{gap}: {both}");
+    }
+}
+
+/// A block on a floor longer than the period has the uplift of still water, and no other force, wherever the period ends.
+#[test]
+fn a_floor_longer_than_the_period_has_no_end_under_a_block() {
+    let shapes = vec![cuboid(2.0, 1.0, 2.0), cuboid(30.0, 1.0, 1.0)];
+    let periods = Periods {
+        period: Period {
+            origin: DVec3::ZERO,
+            size: DVec3::new(10.0, f64::INFINITY, f64::INFINITY),
+        },
+        filled: vec![[false; 3], [true, false, false]],
+    };
+    for x in [5.0, 9.5, 10.0, 30.3] {
+        let poses = [at(x, 0.0, 1.0), at(5.0, 0.0, -0.5)];
+        let found = loads(shapes.clone(), &poses, Some(periods.clone()), |_| 3.0);
+        let load = (found[0].force - DVec3::Z * 6e4).length();
+        assert!(load < 0.05 * 6e4, "{x}: {}", found[0].force);
+        assert!(
+            found[0].force.x.abs() < 1e-6 * 6e4,
+            "{x}: {}",
+            found[0].force
+        );
     }
 }
 

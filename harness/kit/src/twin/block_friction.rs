@@ -1,6 +1,7 @@
 //! A wall law instead of no slip on faces of blocks parallel to the grid.
 
-use super::lattice::{C, Q, W, macroscopic};
+use super::lattice::{C, Q, W, direction, macroscopic};
+use super::sloping_friction::along;
 use super::wall_model::{norm, share};
 use super::{Solid, Twin};
 
@@ -41,15 +42,24 @@ impl Twin {
 
     /// Solid fraction of the neighbour in a direction; 0 if it is not fluid.
     fn fraction_of(&self, cell: usize, axis: usize, out: i32) -> f64 {
-        let other = self.domain.fluid_neighbour(cell, axis, out);
+        let other = self.fluid_beside(cell, axis, out);
         other.map_or(0.0, |other| self.block_at(other).fraction)
+    }
+
+    /// The fluid cell in a direction, or its mirror image at a free-slip face, the cell itself.
+    pub(super) fn fluid_beside(&self, cell: usize, axis: usize, out: i32) -> Option<usize> {
+        let q = direction(along(axis, out));
+        match self.mirrored(cell, q) {
+            Some((_, reflected)) if reflected != q => Some(cell),
+            _ => self.domain.fluid_neighbour(cell, axis, out),
+        }
     }
 
     /// The face of a full cell, if the law acts on it.
     fn face_of_block(&self, cell: usize) -> Option<BlockFace> {
         let here = self.block_at(cell);
         let sides = || (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]);
-        let inside = |(axis, out)| self.domain.fluid_neighbour(cell, axis, out).is_some();
+        let inside = |(axis, out)| self.fluid_beside(cell, axis, out).is_some();
         if here.fraction < FULL || here.deep || here.shared || !sides().all(inside) {
             return None;
         }

@@ -10,6 +10,9 @@ const FULL: f64 = 0.999;
 const STEEP: f64 = 1.2;
 /// Largest second difference of heights on a face.
 const FLAT: f64 = 0.2;
+/// Distance from convex edges at which columns with full cells end, and the cells beside an edge where solid closes the gap.
+const EDGE_DEPTH: f64 = 1.2;
+const GAP: usize = 4;
 /// Cells of a column from the surface to full or empty ones, and to the cell of the law.
 const PARTIAL: usize = 4;
 const REACH: usize = 12;
@@ -30,6 +33,8 @@ pub(super) struct Sloping {
     pub out: i32,
     /// Whether the cell is the uppermost full one of its column.
     pub top: bool,
+    /// Area of the face in this column and, at an edge, beyond it.
+    pub area: f64,
     /// Directions to cells that are not full.
     pub open: Vec<usize>,
     /// Cells of the column above with their distances from the face; the law reads the velocity of the last one.
@@ -51,9 +56,16 @@ pub(super) struct Columns<'a> {
     pub around: &'a dyn Fn(usize, [i32; 3]) -> Option<usize>,
 }
 
+/// Why a column has no height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum NoHeight {
+    Low,
+    High,
+}
+
 impl Columns<'_> {
     /// Height of the solid above the centre of a cell, where its column is solid, cut cells, and nothing.
-    fn height(&self, cell: usize, axis: usize, out: i32) -> Option<f64> {
+    fn height(&self, cell: usize, axis: usize, out: i32) -> Result<f64, NoHeight> {
         let until = |out: i32, end: &dyn Fn(f64) -> bool| {
             let mut passed = Vec::new();
             let mut at = cell;
@@ -69,9 +81,9 @@ impl Columns<'_> {
                 at = (self.step)(at, axis, out)?;
             }
         };
-        let up: f64 = until(out, &|e| e == 0.0)?.iter().sum();
-        let down = until(-out, &|e| e >= self.full)?;
-        Some(up - down[1..].iter().map(|e| 1.0 - e).sum::<f64>() - 0.5)
+        let up = until(out, &|e| e == 0.0).ok_or(NoHeight::High)?;
+        let down = until(-out, &|e| e >= self.full).ok_or(NoHeight::Low)?;
+        Ok(up.iter().sum::<f64>() - down[1..].iter().map(|e| 1.0 - e).sum::<f64>() - 0.5)
     }
 }
 
@@ -113,14 +125,18 @@ impl Twin {
         let (operator, _) = self.blocks.as_ref()?;
         let here = self.solid_in(cell);
         let sides = || (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]);
-        let inside = |(axis, out)| self.domain.fluid_neighbour(cell, axis, out).is_some();
+        let inside = |(axis, out)| self.fluid_beside(cell, axis, out).is_some();
         if *operator != SolidOperator::Holdych || here.fraction == 0.0 || here.deep || here.shared {
             return None;
         }
         if self.domain.solid[cell] || !sides().all(inside) || self.is_at_aligned_face(cell) {
             return None;
         }
-        let around = |at, c| Some(self.diagonal(at, direction(c)));
+        let torus = |at, c| self.diagonal(at, direction(c));
+        let around = |at, c| {
+            let image = self.mirrored(at, direction(c));
+            Some(image.map_or_else(|| torus(at, c), |image| image.0))
+        };
         let columns = Columns {
             fraction: &|at| self.solid_in(at).fraction,
             full: FULL,
@@ -129,7 +145,7 @@ impl Twin {
         };
         // Columns of solid pass through every cell.
         let solid = Columns {
-            step: &|at, axis, out| around(at, along(axis, out)),
+            step: &|at, axis, out| Some(torus(at, along(axis, out))),
             ..columns
         };
         let open = |_: usize| true;
@@ -165,16 +181,41 @@ impl Twin {
         let mut axes = [0, 1, 2];
         axes.sort_by(|a, b| less[*b].abs().total_cmp(&less[*a].abs()));
         let out_along = |axis: usize| if less[axis] > 0.0 { 1 } else { -1 };
-        let column = |axis| Some((axis, heights.height(cell, axis, out_along(axis))?));
+        let column = |axis| Some((axis, heights.height(cell, axis, out_along(axis)).ok()?));
         let other = || (less[axes[1]].abs() > DIAGONAL * less[axes[0]].abs()).then_some(axes[1]);
         let (axis, height) = column(axes[0]).or_else(|| column(other()?))?;
         let out = out_along(axis);
+        let beside = |side: usize, step| match (columns.around)(cell, along(side, step)) {
+            Some(other) => heights.height(other, axis, out),
+            None => Err(NoHeight::High),
+        };
         let slope = |side: usize| {
-            let side = |step| heights.height((columns.around)(cell, along(side, step))?, axis, out);
-            let (before, after) = (side(-1)?, side(1)?);
+            let (before, after) = (beside(side, -1).ok()?, beside(side, 1).ok()?);
             let slope = 0.5 * (after - before);
             let is_flat = (before + after - 2.0 * height).abs() <= FLAT && slope.abs() < STEEP;
             is_flat.then_some(slope)
+        };
+        // The part of the surface beyond the columns with full cells: twice where it continues around an edge.
+        let beyond = |side: usize, step: i32| {
+            let mut at = Some(cell);
+            let mut is_free = |k: usize| {
+                at = at.and_then(|at| (columns.step)(at, side, step));
+                at.is_some_and(|at| {
+                    !self.domain.solid[at] && (k <= 2 || (columns.fraction)(at) == 0.0)
+                })
+            };
+            match beside(side, step) {
+                Err(NoHeight::Low) if (1..=GAP).all(&mut is_free) => 2.0 * EDGE_DEPTH,
+                Err(NoHeight::Low) => EDGE_DEPTH,
+                _ => 0.0,
+            }
+        };
+        let longer = |side: usize| match (beside(side, -1), beside(side, 1)) {
+            (Ok(before), Ok(after)) => {
+                let turn = (height - before).atan() - (after - height).atan();
+                2.0 * EDGE_DEPTH * (turn / 2.0).tan()
+            }
+            _ => beyond(side, -1) + beyond(side, 1),
         };
         let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
         // At edges, the direction towards less solid.
@@ -212,6 +253,7 @@ impl Twin {
                     axis,
                     out,
                     top,
+                    area: (length + longer(first) + longer(second)).max(0.0),
                     open,
                     above,
                     u,
@@ -348,11 +390,7 @@ impl Sloping {
             let first = first.map(|v| v / norm(first));
             [first, cross(n, first)]
         };
-        let area = if self.top {
-            1.0 / self.normal[self.axis].abs()
-        } else {
-            0.0
-        };
+        let area = if self.top { self.area } else { 0.0 };
         let stress = area * self.friction.powi(2) / norm(self.u).max(1e-30);
         let sum = |of: &dyn Fn(usize) -> f64| self.open.iter().map(|&q| of(q)).sum::<f64>();
         let relative =
@@ -369,10 +407,12 @@ impl Sloping {
             [covariance(0, 0), covariance(0, 1), covariance(1, 1)],
             [0, 1].map(|t| sum(&|q| relative(q) * apart(q, t))),
         );
+        // What a full cell of a solid in motion has kept of the deviation from the equilibrium of the solid.
+        let kept = 1.0 - velocity.iter().map(|v| v.abs()).sum::<f64>().min(0.9);
         let excess = mean_excess - mean[0] * slip[0] - mean[1] * slip[1];
         let wanted = [0, 1].map(|t| {
             let arrived = sum(&|q| (relative(q) - W[q] * excess) * over(q, t));
-            -2.0 * arrived - stress * dot(self.u, along[t])
+            -(1.0 + 1.0 / kept) * arrived - stress * dot(self.u, along[t])
         });
         let element = |s: usize, t: usize| sum(&|q| W[q] * over(q, s) * over(q, t));
         let found = solved([element(0, 0), element(0, 1), element(1, 1)], wanted);

@@ -161,7 +161,7 @@ impl Twin {
 
     /// The cell in a direction, or that of which it is the mirror image beyond a free-slip face, and the reflected direction; none
     /// beyond other faces.
-    fn mirrored(&self, cell: usize, q: usize) -> Option<(usize, usize)> {
+    pub(super) fn mirrored(&self, cell: usize, q: usize) -> Option<(usize, usize)> {
         let (to, crossed) = self.domain.walk(self.domain.position(cell), C[q]);
         let mut reflected = C[q];
         for (axis, face) in crossed.into_iter().enumerate() {

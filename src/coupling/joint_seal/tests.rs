@@ -108,7 +108,7 @@ fn joints_that_continue_across_the_period_have_no_rim() {
 /// A block on a floor longer than the period has the uplift of still water, and no other force, wherever the period ends.
 #[test]
 fn a_floor_longer_than_the_period_has_no_end_under_a_block() {
-    let shapes = vec![cuboid(2.0, 1.0, 2.0), cuboid(30.0, 1.0, 1.0)];
+    let shapes = vec![cuboid(2.0, 1.0, 2.0), cuboid(30.0, 3.0, 1.0)];
     let periods = Periods {
         period: Period {
             origin: DVec3::ZERO,

@@ -259,19 +259,6 @@ impl Blocks {
         self.periods.as_ref()
     }
 
-    /// The shifts of [`Periods::image_shifts`].
-    pub(crate) fn image_shifts(
-        &self,
-        blocks: [usize; 2],
-        separation: DVec3,
-        range: f64,
-    ) -> Vec<DVec3> {
-        match &self.periods {
-            Some(periods) => periods.image_shifts(blocks, separation, range),
-            None => vec![DVec3::ZERO],
-        }
-    }
-
     /// Part of each of [`Blocks::aabbs`], and the shift of its image, m.
     pub(crate) fn images(&self) -> Vec<(usize, DVec3)> {
         let Some(periods) = &self.periods else {

@@ -214,7 +214,10 @@ fn faces_on_others(setup: &Setup, blocks: &Blocks, block: usize, known: &[usize]
             continue;
         }
         let apart = its.centre - pose.centre;
-        let image_shifts = blocks.image_shifts([block, other], apart, near);
+        let image_shifts = match blocks.periods() {
+            Some(periods) => periods.image_shifts([block, other], apart, near),
+            None => vec![DVec3::ZERO],
+        };
         let within = image_shifts
             .iter()
             .filter(|shift| (apart + **shift).length() <= near);

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use kit::{assert_near, assert_relative};
 use riprap::{
     geometry::Load,
-    rock::{Block, Motion, law::Joint},
+    rock::{Block, Motion, Sleep, law::Joint},
 };
 
 #[test]
@@ -39,6 +39,29 @@ fn blocks_that_tumble_down_a_slope() {
         assert!(work > 1e-3 * fallen, "{name}: {work} J of {end:?}");
     }
     assert!(end.contact_loss.abs() < 0.05 * fallen, "{end:?}");
+}
+
+/// What a block loses when it falls asleep is dissipated.
+#[test]
+fn blocks_that_fall_asleep() {
+    let mut block = Block::new("block", cuboid(1.0, 0.5, 0.7), DVec3::ZERO);
+    block.velocity = DVec3::X * 0.01;
+    let mut setup = setup(vec![block], joint(1e9, 30.0));
+    setup.gravity = DVec3::ZERO;
+    setup.time_step = Some(1e-3);
+    setup.sleep = Some(Sleep {
+        speed: 0.1,
+        after: 0.005,
+        ..Sleep::default()
+    });
+    let mut blocks = blocks(setup);
+    let start = blocks.ledger();
+    run(&mut blocks, 0.01);
+    let end = blocks.ledger();
+    assert!(blocks.asleep().all(|asleep| asleep));
+    assert!(start.kinetic > 0.0 && end.kinetic == 0.0);
+    assert_relative(end.dissipated(), start.kinetic, 1e-12);
+    assert_relative(end.balance(), start.balance(), 1e-12);
 }
 
 /// Without damping and friction the kinetic energy changes by what the springs of changing areas gain or lose.

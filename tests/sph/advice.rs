@@ -35,6 +35,25 @@ fn what_is_resolved_has_no_warning() {
     assert_eq!(tank_with(&on), Vec::<String>::new());
 }
 
+/// Rubber of the density of the water is excited by its pressure; granite is not, nor is a rigid block.
+#[test]
+fn soft_light_blocks_give_a_warning() {
+    let excited = |modulus: f64, deformable: bool| {
+        let material = format!(
+            "[[materials]]\nname = \"m\"\ndensity = 1000\nnormal_stiffness = 1e7\nfriction = 30\n\
+             youngs_modulus = {modulus:e}\npoissons_ratio = 0.2\n"
+        );
+        let keys = format!(
+            "size = [0.5, 0.5, 0.3]\nposition = [1, 0.5, 0.8]\nmaterial = \"m\"\ndeformable = {deformable}"
+        );
+        let warnings = tank_with(&(material + &block(&keys)));
+        warnings.iter().any(|warning| warning.contains("excite"))
+    };
+    assert!(excited(1e5, true));
+    assert!(!excited(1e10, true));
+    assert!(!excited(1e5, false));
+}
+
 #[test]
 fn shallow_water_thin_blocks_and_narrow_gaps_give_warnings() {
     let mut told = Vec::new();

@@ -3,24 +3,12 @@
 //! They do not move and are found once, in f64. [`super::block_friction`] finds those of blocks on the device whenever these have
 //! moved.
 
-use super::{C, Face, Grid, WallCell, survey::Survey, wall_model::Walls};
+use super::{C, Face, Grid, WallCell, surface_columns::Solids, survey::Survey, wall_model::Walls};
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-/// Largest slope of a face towards the nearest axis.
-const LARGEST_SLOPE: f64 = 1.2;
-/// Largest sum of the differences of height to the columns on both sides: more at edges.
-const FLAT: f64 = 0.2;
-/// Full cells lie inside the surface, and their columns reach the edges of a convex solid only up to this distance, cells: the mean
-/// over prisms with 3 to 48 sides at all angles and positions.
-const EDGE_DEPTH: f64 = 1.2;
-/// Cells beside an edge up to which other solid makes the gap too narrow for a stream, and the first of them that may hold some of
-/// the solid with the edge.
-const EDGE_GAP: usize = 4;
-const EDGE_CELLS: usize = 2;
-/// Cells of a column from the surface to full or empty ones, and up to the one whose velocity the law reads.
-const PARTIAL: usize = 4;
+/// Cells of a column from the surface up to the one whose velocity the law reads.
 const REACH: usize = 12;
 /// Distance of that cell from the face, at least.
 const SAMPLE_DISTANCE: f64 = 4.0;
@@ -93,42 +81,6 @@ pub struct SurfaceFaces {
     pub count: usize,
 }
 
-/// The solid fractions of a setup.
-struct Solids<'a> {
-    survey: &'a Survey<'a>,
-    fractions: HashMap<u32, f64>,
-    /// Fluid cells at plane walls, which have a model of their own.
-    plane: HashSet<u32>,
-}
-
-/// A column of cells at the surface.
-#[derive(Clone, Copy, Debug)]
-enum Column {
-    /// Height of the solid above the centre of a cell, in a column that is solid, then cut, then fluid.
-    Height(f64),
-    /// There are no full cells below.
-    Low,
-    /// There are no empty cells above, or the column leaves the domain.
-    High,
-}
-
-impl Column {
-    fn height(self) -> Option<f64> {
-        match self {
-            Self::Height(height) => Some(height),
-            Self::Low | Self::High => None,
-        }
-    }
-}
-
-/// The surface at a column, along an axis across it.
-struct Profile {
-    /// Slope of the surface, where it is flat.
-    slope: Option<f64>,
-    /// Distance by which the surface is longer than its part in the columns with full cells, cells.
-    longer: f64,
-}
-
 /// A face at a cell.
 struct Found {
     slope: SlopingCell,
@@ -137,19 +89,6 @@ struct Found {
 }
 
 impl Solids<'_> {
-    fn grid(&self) -> &Grid {
-        self.survey.grid
-    }
-
-    /// 1 in a full cell.
-    fn fraction(&self, cell: [u32; 3]) -> f64 {
-        if self.survey.is_solid(cell) {
-            return 1.0;
-        }
-        let index = self.grid().index(cell) as u32;
-        self.fractions.get(&index).copied().unwrap_or(0.0)
-    }
-
     /// The cells that the surface cuts and their full neighbours, in ascending order.
     fn at_surface(&self) -> Vec<[u32; 3]> {
         let [nx, ny, _] = self.grid().cells;
@@ -166,44 +105,6 @@ impl Solids<'_> {
         cells
     }
 
-    /// The cell next to one in a direction, in the domain.
-    fn neighbour(&self, cell: [u32; 3], c: [i32; 3]) -> Option<[u32; 3]> {
-        self.survey.neighbour_in_domain(cell, c)
-    }
-
-    fn step(axis: usize, by: i32) -> [i32; 3] {
-        let mut c = [0; 3];
-        c[axis] = by;
-        c
-    }
-
-    /// The same where free-slip faces mirror the domain.
-    fn mirrored(&self, cell: [u32; 3], c: [i32; 3]) -> Option<[u32; 3]> {
-        let free_slip = self.free_slip(cell);
-        self.neighbour(
-            cell,
-            [0, 1, 2].map(|axis| {
-                let face = 2 * axis + usize::from(c[axis] > 0);
-                if free_slip & 1 << face != 0 {
-                    0
-                } else {
-                    c[axis]
-                }
-            }),
-        )
-    }
-
-    /// The faces of a cell that are free-slip faces of the domain, one bit each.
-    fn free_slip(&self, cell: [u32; 3]) -> u32 {
-        let faces = self.survey.setup.faces.as_flattened().iter().enumerate();
-        let own = faces.filter(|(face, kind)| {
-            let axis = face / 2;
-            let border = [0, self.grid().cells[axis] - 1][face % 2];
-            **kind == Face::FreeSlip && cell[axis] == border
-        });
-        own.fold(0, |bits, (face, _)| bits | 1 << face)
-    }
-
     /// Whether a cell lies at a pressure or outflow face. Solids fill whole cells there, and such faces extrapolate the populations of
     /// the cells in front of them.
     fn is_at_outlet(&self, cell: [u32; 3]) -> bool {
@@ -211,75 +112,6 @@ impl Solids<'_> {
         faces.any(|(face, kind)| {
             let border = [0, self.grid().cells[face / 2] - 1][face % 2];
             matches!(kind, Face::Pressure { .. } | Face::Outflow { .. }) && cell[face / 2] == border
-        })
-    }
-
-    /// The column of a cell along `out`.
-    fn column(&self, cell: [u32; 3], axis: usize, out: i32) -> Column {
-        let mut height = self.fraction(cell) - 0.5;
-        for (by, end, without) in [(out, 0.0, Column::High), (-out, 1.0, Column::Low)] {
-            let (mut at, mut fraction) = (cell, self.fraction(cell));
-            for passed in 0.. {
-                if fraction == end {
-                    break;
-                }
-                if passed == PARTIAL {
-                    return without;
-                }
-                let Some(next) = self.neighbour(at, Self::step(axis, by)) else {
-                    return Column::High;
-                };
-                at = next;
-                fraction = self.fraction(at);
-                height += fraction - end;
-            }
-        }
-        Column::Height(height)
-    }
-
-    /// The surface along an axis, from the columns on both sides of one with this height.
-    fn profile(
-        &self,
-        cell: [u32; 3],
-        (axis, out): (usize, i32),
-        height: f64,
-        along: usize,
-    ) -> Profile {
-        let sides = [-1, 1].map(|by| {
-            let other = self.mirrored(cell, Self::step(along, by));
-            other.map_or(Column::High, |other| self.column(other, axis, out))
-        });
-        if let [Column::Height(before), Column::Height(after)] = sides {
-            let slope = 0.5 * (after - before);
-            let is_flat =
-                (before + after - 2.0 * height).abs() <= FLAT && slope.abs() < LARGEST_SLOPE;
-            let turn = (height - before).atan() - (after - height).atan();
-            return Profile {
-                slope: is_flat.then_some(slope),
-                longer: 2.0 * EDGE_DEPTH * (0.5 * turn).tan(),
-            };
-        }
-        // Beyond an edge the columns of this face end, and those of the face around it, if fluid lies in front of that one.
-        let faces = sides.into_iter().zip([-1, 1]).map(|(side, by)| match side {
-            Column::Low if self.has_gap(cell, Self::step(along, by)) => 2.0,
-            Column::Low => 1.0,
-            Column::Height(_) | Column::High => 0.0,
-        });
-        Profile {
-            slope: None,
-            longer: EDGE_DEPTH * faces.sum::<f64>(),
-        }
-    }
-
-    /// Whether the cells next to an edge hold no other solid.
-    fn has_gap(&self, cell: [u32; 3], step: [i32; 3]) -> bool {
-        let mut at = cell;
-        (1..=EDGE_GAP).all(|k| {
-            let Some(next) = self.neighbour(at, step) else {
-                return false;
-            };
-            at = next;
-            !self.survey.is_solid(at) && (k <= EDGE_CELLS || self.fraction(at) == 0.0)
         })
     }
 

@@ -8,7 +8,7 @@ use super::{
     fluid::Dispatch,
     surface::Surface,
     surface_faces::{NearCell, SlopingCell, SurfaceFaces, TOP},
-    wall_model::model_share,
+    wall_model::{marks, model_share},
 };
 use crate::{
     Error, Result,
@@ -185,7 +185,8 @@ impl Lattice {
         part.map(mark).transpose()
     }
 
-    /// The faces of exact surfaces where the wall model acts, with its results in the last step; none without it.
+    /// The faces of exact surfaces where the wall model acts, without those near a block, with its results in the last step; none
+    /// without it.
     ///
     /// # Errors
     /// If the device fails.
@@ -200,14 +201,11 @@ impl Lattice {
         let mut readback = Readback::default();
         let count = part.count as usize;
         let slopes: Vec<SlopingCell> = readback.read(device, queue, &part.slopes, count).await?;
-        let blocked: Vec<u32> = match &part.blocks {
-            Some(blocks) => readback.read(device, queue, blocks, count).await?,
-            None => vec![0; count],
-        };
+        let blocked = marks(&mut readback, device, queue, part.blocks.as_ref(), count).await?;
         let cells = &self.geometry.surface_faces.cells;
         let each = cells.iter().zip(&slopes).zip(&blocked);
-        let tops = each.filter(|((_, slope), _)| slope.slope & TOP != 0);
-        let face = |((cell, slope), blocked): ((&WallCell, &SlopingCell), &u32)| {
+        let tops = each.filter(|((_, slope), blocked)| slope.slope & TOP != 0 && !**blocked);
+        let face = |((cell, slope), _): ((&WallCell, &SlopingCell), &bool)| {
             let face = slope.slope & 7;
             let u = glam::Vec3::from(slope.u);
             let stress = slope.friction * slope.friction / u.length().max(1e-30) * u;
@@ -216,10 +214,7 @@ impl Lattice {
                 cell: cell.cell,
                 face,
                 friction: slope.friction,
-                share: match blocked {
-                    0 => model_share(slope.friction, self.setup.nu),
-                    _ => 0.0,
-                },
+                share: model_share(slope.friction, self.setup.nu),
                 stress: stress.to_array(),
                 fraction: slope.cells() as f32 - 0.5 - slope.distance / rise,
                 normal: slope.normal,

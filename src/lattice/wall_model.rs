@@ -177,7 +177,7 @@ impl Walls {
 }
 
 /// Share of the law at a friction velocity, as `law_of_the_wall.wgsl` has it.
-pub(crate) fn model_share(friction: f32, nu: f64) -> f32 {
+pub(super) fn model_share(friction: f32, nu: f64) -> f32 {
     let s = ((0.5 * friction / nu as f32 - 3.0) / 3.0).clamp(0.0, 1.0);
     s * s * (3.0 - 2.0 * s)
 }
@@ -308,6 +308,21 @@ impl WallPart {
     }
 }
 
+/// Which of `count` cells `blocks` marks as near a block; none without blocks.
+pub(super) async fn marks(
+    readback: &mut Readback,
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    blocks: Option<&wgpu::Buffer>,
+    count: usize,
+) -> Result<Vec<bool>> {
+    let Some(blocks) = blocks else {
+        return Ok(vec![false; count]);
+    };
+    let marks: Vec<u32> = readback.read(device, queue, blocks, count).await?;
+    Ok(marks.into_iter().map(|mark| mark != 0).collect())
+}
+
 impl Lattice {
     /// The passes over the walls of the model in a step of the given parity.
     pub(super) fn wall_passes(&self, device: &wgpu::Device, odd: u32) -> Result<Vec<Dispatch>> {
@@ -413,6 +428,25 @@ impl Lattice {
             let own: Vec<WallStress> = readback
                 .read(device, queue, &part.stress, part.count as usize)
                 .await?;
+            all.extend(own);
+        }
+        Ok(all)
+    }
+
+    /// Whether each cell of [`Walls::cells`] had a block nearby in the last step, so that the wall was no-slip.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub async fn walls_near_blocks(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Vec<bool>> {
+        let mut all = Vec::new();
+        let mut readback = Readback::default();
+        for part in &self.buffers.walls {
+            let count = part.count as usize;
+            let own = marks(&mut readback, device, queue, part.blocks.as_ref(), count).await?;
             all.extend(own);
         }
         Ok(all)

@@ -3,7 +3,7 @@
 use super::{Simulation, lattice_fluid::LatticeFluid};
 use crate::{
     Result,
-    lattice::{BlockFace, WallCell, WallStress, in_plane, model_share},
+    lattice::{BlockFace, WallCell, WallStress, in_plane},
     output::{Array, Surface},
     scene::{Axis, Face},
 };
@@ -84,17 +84,14 @@ impl Simulation {
         let lattice = &fluid.lattice;
         let surfaces = lattice.surface_faces(&fluid.device, &fluid.queue).await?;
         let walls = &lattice.geometry().walls;
-        // Near a block the share is that of no slip, whatever the law gives.
-        let nu = lattice.setup().nu;
-        let is_open = |friction, share| share > 0.0 || model_share(friction, nu) == 0.0;
-        let each = walls.cells.iter().zip(&stresses);
-        let each = each.filter(|(_, stress)| is_open(stress.friction, stress.share));
-        let on_walls = each.map(|(wall, stress)| fluid.wall_friction(wall, stress));
+        let blocked = lattice
+            .walls_near_blocks(&fluid.device, &fluid.queue)
+            .await?;
+        let each = walls.cells.iter().zip(&stresses).zip(blocked);
+        let open = each.filter(|(_, blocked)| !blocked);
+        let on_walls = open.map(|((wall, stress), _)| fluid.wall_friction(wall, stress));
         let on_face = |face, place| fluid.face_friction(face, place);
-        let open = surfaces
-            .iter()
-            .filter(|face| is_open(face.friction, face.share));
-        let on_surfaces = open.map(|face| on_face(face, WallPlace::Solids));
+        let on_surfaces = surfaces.iter().map(|face| on_face(face, WallPlace::Solids));
         let on_walls: Vec<_> = on_walls.chain(on_surfaces).collect();
         let on_blocks = blocks
             .faces

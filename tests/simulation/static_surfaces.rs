@@ -2,7 +2,10 @@
 
 use crate::probed_at_end;
 use kit::{Rig, assert_near};
-use riprap::scene::Scene;
+use riprap::{
+    scene::{Face, Scene},
+    simulation::{WallFriction, WallPlace},
+};
 use std::{fs, path::PathBuf};
 
 /// Flow through a periodic channel over a bed 0.24 m high and past a block just above it, so that both share cells.
@@ -190,19 +193,14 @@ fn friction_at_sloping_faces_conserves_mass() {
     }
 }
 
-/// Force on a rod along x between free-slip faces, N: at rest in a stream, or driven through still water.
-fn friction_of_rod(rig: &Rig, angle: f64, stream: f64) -> f64 {
-    let scene = kit::scene::read(&format!(
+/// A stream at a wall model past one block, between walls of the domain or faces of other kinds: keys of the scene and of the block.
+fn past_block(domain: &str, block: &str) -> Scene {
+    kit::scene::read(&format!(
         r#"
-        domain = {{ size = [0.2, 1.6, 1.6], cell = 0.05 }}
         fluid = {{ viscosity = 1e-6 }}
         numerics = {{ velocity_scale = 1.4, mach = 0.06, eddy_viscosity = "wale", wall_model = "werner_wengle" }}
-        initial = {{ velocity = [{stream}, 0, 0] }}
         run.steps = 120
-        boundaries.y_min = {{ kind = "free_slip" }}
-        boundaries.y_max = {{ kind = "free_slip" }}
-        boundaries.z_min = {{ kind = "free_slip" }}
-        boundaries.z_max = {{ kind = "free_slip" }}
+        {domain}
         [[materials]]
         name = "rock"
         density = 2650
@@ -210,78 +208,101 @@ fn friction_of_rod(rig: &Rig, angle: f64, stream: f64) -> f64 {
         friction = 30
         [[blocks]]
         kind = "box"
-        size = [0.2, 0.6, 0.6]
-        position = [0.1, 0.813, 0.807]
-        rotation = {{ axis = [1, 0, 0], angle = {angle} }}
-        motion = "driven"
-        velocity = [{}, 0, 0]
-        "#,
-        stream - 1.0
-    ));
-    let mut simulation = rig.simulation(&scene.unwrap()).unwrap();
-    rig.wait(simulation.advance(60)).unwrap();
-    let mut mean = 0.0;
-    for _ in 0..60 {
-        rig.wait(simulation.advance(1)).unwrap();
-        mean += simulation.coupled().unwrap().external_load()[0]
-            .flow
-            .force
-            .x
-            / 60.0;
-    }
-    mean
+        {block}
+        "#
+    ))
+    .unwrap()
 }
 
-/// Noise in full cells that move brings fluid to the edges, which have no slip, so that oblique rods in motion have up to two fifths
-/// more friction.
+/// The mean force along x on the block of a scene over steps 60 to 120, N.
+fn friction_on_block(rig: &Rig, scene: &Scene) -> f64 {
+    let mut simulation = rig.simulation(scene).unwrap();
+    rig.wait(simulation.advance(60)).unwrap();
+    let forces = (0..60).map(|_| {
+        rig.wait(simulation.advance(1)).unwrap();
+        let loads = simulation.coupled().unwrap().external_load();
+        loads[0].flow.force.x
+    });
+    forces.sum::<f64>() / 60.0
+}
+
+/// Noise in full cells that move brings fluid to the edges, which have no slip: oblique rods in motion have more friction.
 #[test]
 fn a_rod_in_motion_has_the_friction_of_one_at_rest_in_a_stream() {
     let rig = Rig::new();
     for (angle, limit) in [(0.0, 0.05), (26.565, 0.5), (45.0, 0.5)] {
-        let [at_rest, moves] = [1.0, 0.0].map(|stream| friction_of_rod(&rig, angle, stream));
+        let friction = |stream: f64| {
+            let domain = format!(
+                r#"
+                domain = {{ size = [0.2, 1.6, 1.6], cell = 0.05 }}
+                initial = {{ velocity = [{stream}, 0, 0] }}
+                boundaries.y_min = {{ kind = "free_slip" }}
+                boundaries.y_max = {{ kind = "free_slip" }}
+                boundaries.z_min = {{ kind = "free_slip" }}
+                boundaries.z_max = {{ kind = "free_slip" }}
+                "#
+            );
+            let rod = format!(
+                "size = [0.2, 0.6, 0.6]\nposition = [0.1, 0.813, 0.807]\nmotion = \"driven\"\n\
+                 rotation = {{ axis = [1, 0, 0], angle = {angle} }}\nvelocity = [{}, 0, 0]",
+                stream - 1.0
+            );
+            friction_on_block(&rig, &past_block(&domain, &rod))
+        };
+        let (at_rest, moves) = (friction(1.0), friction(0.0));
         println!("{angle}: {at_rest} N at rest, {moves} N in motion");
         assert!(at_rest > 0.0);
         assert_near(moves / at_rest, 1.0, limit);
     }
 }
 
+/// Keys of a domain with a bed, where the water flows along x.
+fn bed_between(sides: &str, size: [f64; 3]) -> String {
+    format!(
+        r#"
+        domain = {{ size = {size:?}, cell = 0.05 }}
+        initial = {{ velocity = [1, 0, 0] }}
+        boundaries.y_min = {{ kind = "{sides}" }}
+        boundaries.y_max = {{ kind = "{sides}" }}
+        boundaries.z_min = {{ kind = "wall" }}
+        boundaries.z_max = {{ kind = "free_slip" }}
+        "#
+    )
+}
+
 /// Between free-slip faces a bed has the friction of the middle of a wide one, over its whole width.
 #[test]
 fn free_slip_faces_continue_a_bed() {
     let rig = Rig::new();
-    let force = |sides: &str, width: f64| {
-        let scene = kit::scene::read(&format!(
-            r#"
-            domain = {{ size = [0.4, 0.2, 1.2], cell = 0.05 }}
-            fluid = {{ viscosity = 1e-6 }}
-            numerics = {{ velocity_scale = 1.4, mach = 0.06, eddy_viscosity = "wale", wall_model = "werner_wengle" }}
-            initial = {{ velocity = [1, 0, 0] }}
-            run.steps = 100
-            boundaries.y_min = {{ kind = "{sides}" }}
-            boundaries.y_max = {{ kind = "{sides}" }}
-            boundaries.z_min = {{ kind = "wall" }}
-            boundaries.z_max = {{ kind = "free_slip" }}
-            [[materials]]
-            name = "rock"
-            density = 2650
-            normal_stiffness = 1e6
-            friction = 30
-            [[blocks]]
-            kind = "box"
-            size = [0.4, {width}, 0.8]
-            position = [0.2, 0.1, 0.02]
-            motion = "driven"
-            velocity = [0, 0, 0]
-            "#
-        ));
-        let mut simulation = rig.simulation(&scene.unwrap()).unwrap();
-        rig.wait(simulation.advance(100)).unwrap();
-        simulation.coupled().unwrap().external_load()[0]
-            .flow
-            .force
-            .x
+    let friction = |sides: &str, width: f64| {
+        let bed = format!(
+            "size = [0.4, {width}, 0.8]\nposition = [0.2, 0.1, 0.02]\nmotion = \"driven\"\nvelocity = [0, 0, 0]"
+        );
+        let scene = past_block(&bed_between(sides, [0.4, 0.2, 1.2]), &bed);
+        friction_on_block(&rig, &scene)
     };
-    assert_near(force("free_slip", 0.3) / force("periodic", 0.2), 1.0, 1e-3);
+    let [closed, periodic] = [("free_slip", 0.3), ("periodic", 0.2)];
+    let [closed, periodic] = [closed, periodic].map(|(sides, width)| friction(sides, width));
+    assert_near(closed / periodic, 1.0, 1e-3);
+}
+
+/// The walls of the model are those without a block in the five cells in front of them.
+#[test]
+fn walls_under_a_block_are_not_counted_as_walls_with_the_model() {
+    let rig = Rig::new();
+    let block = "size = [0.8, 0.4, 0.5]\nposition = [0.4, 0.2, 0.25]\nmotion = \"fixed\"";
+    let scene = past_block(&bed_between("periodic", [1.6, 0.4, 1.2]), block);
+    let mut simulation = rig.simulation(&scene).unwrap();
+    rig.wait(simulation.advance(20)).unwrap();
+    let frictions = rig.wait(simulation.wall_friction()).unwrap();
+    let floor = |wall: &&WallFriction| wall.place == WallPlace::Face(Face::ZMin);
+    let floor: Vec<_> = frictions.walls.iter().filter(floor).collect();
+    assert!(!floor.is_empty());
+    for wall in floor {
+        // Behind the block as in front of it, across the period.
+        assert!((0.8..1.6).contains(&wall.position[0]), "{wall:?}");
+        assert_eq!(wall.area, 0.05 * 0.05);
+    }
 }
 
 /// The law acts on the whole area of a prism, although columns of cells end before its edges.
@@ -289,27 +310,12 @@ fn free_slip_faces_continue_a_bed() {
 fn the_wall_model_acts_on_the_whole_area_of_a_turned_prism() {
     let rig = Rig::new();
     for angle in [20, 30, 45] {
-        let scene = kit::scene::read(&format!(
-            r#"
-            domain = {{ size = [2.4, 2.4, 0.3], cell = 0.05 }}
-            fluid = {{ viscosity = 1e-6 }}
-            numerics = {{ velocity_scale = 1, eddy_viscosity = "wale", wall_model = "reichardt" }}
-            initial = {{ velocity = [0, 0, 0.8] }}
-            run.steps = 4
-            [[materials]]
-            name = "rock"
-            density = 2650
-            normal_stiffness = 1e6
-            friction = 30
-            [[blocks]]
-            kind = "box"
-            size = [1.2, 1.2, 0.3]
-            position = [1.215, 1.23, 0.15]
-            rotation = {{ axis = [0, 0, 1], angle = {angle} }}
-            motion = "fixed"
-            "#
-        ));
-        let mut simulation = rig.simulation(&scene.unwrap()).unwrap();
+        let domain = "domain = { size = [2.4, 2.4, 0.3], cell = 0.05 }\ninitial = { velocity = [0, 0, 0.8] }";
+        let prism = format!(
+            "size = [1.2, 1.2, 0.3]\nposition = [1.215, 1.23, 0.15]\nmotion = \"fixed\"\n\
+             rotation = {{ axis = [0, 0, 1], angle = {angle} }}"
+        );
+        let mut simulation = rig.simulation(&past_block(domain, &prism)).unwrap();
         rig.wait(simulation.advance(4)).unwrap();
         let frictions = rig.wait(simulation.wall_friction()).unwrap();
         let area: f64 = frictions.walls.iter().map(|wall| wall.area).sum();

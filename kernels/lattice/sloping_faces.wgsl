@@ -16,8 +16,8 @@ const SAMPLE_DISTANCE = 4.0;
 // In place of a height: the column has no full cells below, or no empty ones above.
 const NO_COLUMN = -99.0;
 const HIGH_COLUMN = 99.0;
-// Full cells lie inside the surface, and their columns reach the edges of a convex solid only up to this distance, cells: the mean
-// over prisms with 3 to 48 sides at all angles and positions.
+// Full cells lie inside the surface, and their columns reach the edges of a convex solid only up to this distance, cells, on
+// average: with it turned prisms have their area.
 const EDGE_DEPTH = 1.2;
 // Cells beside an edge up to which other solid makes the gap too narrow for a stream.
 const EDGE_GAP = 4u;
@@ -130,7 +130,10 @@ fn profile_along(cell: vec3<u32>, face: u32, axis: u32, height: f32) -> Profile 
 // Faces that reach beyond the columns with full cells, on the side of a column with this height: this one, and the one around the
 // edge if fluid lies in front of it.
 fn beyond_edge(cell: vec3<u32>, side: u32, height: f32) -> f32 {
-    return select(0.0, select(1.0, 2.0, has_fluid(cell, side, 0.5, 0u, EDGE_GAP)), height == NO_COLUMN);
+    if (height != NO_COLUMN) {
+        return 0.0;
+    }
+    return select(1.0, 2.0, has_fluid(cell, side, 0.5, 0u, EDGE_GAP));
 }
 
 // Whether the cells of a column beyond `after` others, up to one of them, are fluid and hold no solid, if the face cannot cut them.

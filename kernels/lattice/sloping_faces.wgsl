@@ -130,10 +130,8 @@ fn profile_along(cell: vec3<u32>, face: u32, axis: u32, height: f32) -> Profile 
 // Faces that reach beyond the columns with full cells, on the side of a column with this height: this one, and the one around the
 // edge if fluid lies in front of it.
 fn beyond_edge(cell: vec3<u32>, side: u32, height: f32) -> f32 {
-    if (height != NO_COLUMN) {
-        return 0.0;
-    }
-    return select(1.0, 2.0, has_fluid(cell, side, 0.5, 0u, EDGE_GAP));
+    // A branch would spill registers on VEGA20.
+    return select(0.0, select(1.0, 2.0, has_fluid(cell, side, 0.5, 0u, EDGE_GAP)), height == NO_COLUMN);
 }
 
 // Whether the cells of a column beyond `after` others, up to one of them, are fluid and hold no solid, if the face cannot cut them.

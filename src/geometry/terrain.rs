@@ -162,17 +162,25 @@ impl Terrain {
     }
 
     /// The shape that blocks touch between two corners in x and y (m), and its centroid (m): a prism below each triangle, and
-    /// one prism below a plane rectangle.
+    /// one prism below a plane rectangle. All end at the height `bottom` (m), or below the lowest point if that is not lower.
     ///
     /// # Errors
     /// If no rectangle with heights lies there, or the shape would have too many prisms.
-    pub(crate) fn shape(&self, min: [f64; 2], max: [f64; 2]) -> Result<(Shape, DVec3)> {
+    pub(crate) fn shape(
+        &self,
+        min: [f64; 2],
+        max: [f64; 2],
+        bottom: f64,
+    ) -> Result<(Shape, DVec3)> {
+        let size = |[a, b, c, d]: [DVec3; 4]| (c - a).length().max((d - b).length());
+        let corners = self.rectangles(min, max);
+        let depths = corners.flat_map(|corners| corners.map(|p| p.z - size(corners)));
+        let base = depths.filter(|z| z.is_finite()).fold(bottom, f64::min);
         let mut parts = Vec::new();
         let refused = |message: String| Err(Error::argument("file", message));
         for corners in self.rectangles(min, max) {
             let [a, b, c, d] = corners;
-            let size = (c - a).length().max((d - b).length());
-            let flat = (a.z - b.z + c.z - d.z).abs() < 1e-9 * size;
+            let flat = (a.z - b.z + c.z - d.z).abs() < 1e-9 * size(corners);
             let halves = [[a, b, c, c], [a, c, d, d]];
             let pieces = if flat { &[corners][..] } else { &halves[..] };
             for top in pieces
@@ -185,7 +193,6 @@ impl Terrain {
                          to a coarser grid"
                     ));
                 }
-                let base = top.iter().map(|p| p.z).fold(f64::INFINITY, f64::min) - size;
                 let below = top.iter().map(|p| DVec3::new(p.x, p.y, base));
                 let points: Vec<DVec3> = top.iter().copied().chain(below).collect();
                 let (form, offset) = Polyhedron::from_vertices(&points)?;

@@ -5,7 +5,7 @@ use super::{
     narrowphase::Joints,
 };
 use crate::rock::{
-    contact::{Bond, Placed},
+    contact::{Bond, ContactGeometry, Placed},
     law::{Force, Stiffness},
 };
 use glam::DVec3;
@@ -69,6 +69,8 @@ pub(super) struct Chunk {
     pub contacts: Vec<Contact>,
     /// Films in the gaps of pairs that nearly touch.
     pub films: Vec<Film>,
+    /// Contacts whose forces are to be found, by their index, and their geometry.
+    pub geometries: Vec<(usize, ContactGeometry)>,
     /// Energy in the springs of contacts that ended in this step, J.
     pub ended: Vec<f64>,
     /// Scratch memory for the image of a part.

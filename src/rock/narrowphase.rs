@@ -5,9 +5,11 @@ use super::{
     body::MidStep,
     candidate_pairs::{CandidatePair, PlacedParts},
     contact_list::{CHUNK, Chunk, Contact, ContactList, DISTANCES_PER_LIMIT, NO_CONTACT},
+    damping::{Bodies, DampingShares},
     deforming::{DeformingBlocks, RIGID},
     films::Film,
     period::Periods,
+    seams::{Role, Seams},
     threads,
 };
 use crate::{
@@ -18,7 +20,7 @@ use crate::{
     },
 };
 use glam::DVec3;
-use rayon::slice::ParallelSliceMut;
+use rayon::{iter::IntoParallelRefMutIterator, slice::ParallelSliceMut};
 use rayon_cond::CondIterator;
 use std::{
     fmt,
@@ -89,22 +91,49 @@ pub(super) fn resolve(
     let resolver_pool = &*resolver_pool;
     next.resize(pairs.len(), CandidatePair::new([0; 2], [0; 3]));
     found.reset(pairs.len());
-    let chunks = match pairs.len() < threads::PAIRS {
-        true => CondIterator::Serial(next.chunks_mut(CHUNK)),
-        false => CondIterator::Parallel(next.par_chunks_mut(CHUNK)),
+    let seams = Seams::of(narrowphase, pairs);
+    let bonded = narrowphase
+        .contacts
+        .iter()
+        .any(|contact| contact.bond.is_some());
+    let before = match bonded {
+        true => DampingShares::of(narrowphase.contacts, narrowphase.bodies_of_contacts()),
+        false => DampingShares::default(),
+    };
+    let parallel = pairs.len() >= threads::PAIRS;
+    let chunks = match parallel {
+        true => CondIterator::Parallel(next.par_chunks_mut(CHUNK)),
+        false => CondIterator::Serial(next.chunks_mut(CHUNK)),
     };
     let chunks = chunks.zip(&mut found.chunks).enumerate();
+    let last = LastStep {
+        seams,
+        shares: before,
+    };
     let failed = chunks.filter_map(|(n, (next, found))| {
         let first = n * CHUNK;
         let pairs = &pairs[first..first + next.len()];
-        let done =
-            resolver_pool.with(|resolver| narrowphase.chunk(resolver, n, pairs, next, found));
+        let done = resolver_pool
+            .with(|resolver| narrowphase.chunk(resolver, n, pairs, &last, next, found));
         done.err().map(|error| (n, error))
     });
-    match failed.min_by_key(|(n, _)| *n) {
-        Some((_, error)) => Err(error),
-        None => Ok(()),
+    if let Some((_, error)) = failed.min_by_key(|(n, _)| *n) {
+        return Err(error);
     }
+    let shares = DampingShares::of(found, narrowphase.bodies_of_contacts());
+    let chunks = match parallel {
+        true => CondIterator::Parallel(found.chunks.par_iter_mut()),
+        false => CondIterator::Serial(found.chunks.iter_mut()),
+    };
+    chunks.for_each(|chunk| narrowphase.act(chunk, &shares));
+    Ok(())
+}
+
+/// What the contacts of the last step determine in this one.
+struct LastStep {
+    seams: Seams,
+    /// Of bonds, whose areas last.
+    shares: DampingShares,
 }
 
 impl Narrowphase<'_> {
@@ -114,16 +143,30 @@ impl Narrowphase<'_> {
         resolver: &mut Resolver,
         n: usize,
         pairs: &[CandidatePair],
+        last: &LastStep,
         next: &mut [CandidatePair],
         found: &mut Chunk,
     ) -> Result<()> {
         found.contacts.clear();
         found.ended.clear();
         found.films.clear();
-        for (pair, next) in pairs.iter().zip(next) {
+        found.geometries.clear();
+        for (k, (pair, next)) in pairs.iter().zip(next).enumerate() {
             *next = *pair;
-            let before = self.contacts.of(pair);
-            let contact = self.pair(resolver, next, before, found)?;
+            let own = self.contacts.of(pair);
+            let (before, contact) = match last.seams.role(n * CHUNK + k) {
+                Some(Role::Hidden { passed_on }) => (own.filter(|_| !passed_on), None),
+                role => {
+                    let before = match role {
+                        Some(Role::Successor(contact)) => Some(&**contact),
+                        _ => own,
+                    };
+                    (
+                        before,
+                        self.pair(resolver, next, before, &last.shares, found)?,
+                    )
+                }
+            };
             next.contact = match contact {
                 Some(_) => (n * CHUNK + found.contacts.len()) as u32,
                 None => NO_CONTACT,
@@ -143,6 +186,7 @@ impl Narrowphase<'_> {
         resolver: &mut Resolver,
         pair: &mut CandidatePair,
         before: Option<&Contact>,
+        shares: &DampingShares,
         found: &mut Chunk,
     ) -> Result<Option<Contact>> {
         let blocks = pair.parts.map(|part| self.parts.block[part as usize]);
@@ -157,9 +201,7 @@ impl Narrowphase<'_> {
             }));
         }
         let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
-        let image_shift = self
-            .periods
-            .map_or(DVec3::ZERO, |periods| periods.period.shift(pair.offset));
+        let image_shift = self.image_shift(pair);
         let second = match pair.offset {
             [0, 0, 0] => second,
             _ => {
@@ -173,7 +215,7 @@ impl Narrowphase<'_> {
             image_shift,
         };
         if let Some(bond) = before.and_then(|contact| contact.bond.as_ref())
-            && let Some(bonded) = self.bonded_contact(ids, [first, second], bond, before)
+            && let Some(bonded) = self.bonded_contact(ids, [first, second], bond, before, shares)
         {
             return self.check_depth(bonded, blocks).map(Some);
         }
@@ -181,7 +223,8 @@ impl Narrowphase<'_> {
         if self.bonding
             && joint.tensile_strength > 0.0
             && let Some(bond) = Bond::between(first, second)
-            && let Some(bonded) = self.bonded_contact(ids, [first, second], &Arc::new(bond), None)
+            && let Some(bonded) =
+                self.bonded_contact(ids, [first, second], &Arc::new(bond), None, shares)
         {
             return Ok(Some(bonded));
         }
@@ -218,9 +261,17 @@ impl Narrowphase<'_> {
             }),
             Verdict::Contact(geometry) => {
                 let contact = self.contact(ids, &geometry, before);
-                Some(self.check_depth(contact, blocks)?)
+                let contact = self.check_depth(contact, blocks)?;
+                found.geometries.push((found.contacts.len(), geometry));
+                Some(contact)
             }
         })
+    }
+
+    /// Shift of the second part of a pair to its image, m.
+    pub(super) fn image_shift(&self, pair: &CandidatePair) -> DVec3 {
+        let periods = self.periods;
+        periods.map_or(DVec3::ZERO, |periods| periods.period.shift(pair.offset))
     }
 
     /// Returns an error if the penetration of a contact is too deep.
@@ -274,50 +325,70 @@ impl Narrowphase<'_> {
         }
     }
 
+    /// A contact with its history, without its force.
     fn contact(
         &self,
         ids: PairIds,
         geometry: &ContactGeometry,
         before: Option<&Contact>,
     ) -> Contact {
-        let at = geometry.pressure_centre;
         let PairIds {
             parts,
             blocks,
             image_shift,
         } = ids;
-        let joint = self.joint(blocks);
-        let motion = self.motion(blocks, at, image_shift);
         let square = (2.0 * DISTANCES_PER_LIMIT * geometry.limit).powi(2);
-        let section = law::Section {
-            normal: geometry.normal,
-            overlap: geometry.overlap,
-            area: geometry.area,
-            elastic_area: geometry.area.max(self.corner_area * square),
-            spread: geometry.spread,
-            rolls: parts
-                .iter()
-                .any(|&part| self.parts.placed[part as usize].is_sphere()),
-            opening: 0.0,
-        };
-        // A broken bond stays broken.
-        let history = before.map_or_else(History::default, unbonded);
         Contact {
             parts,
             blocks,
             image_shift,
             point: geometry.point,
-            pressure_centre: at,
+            pressure_centre: geometry.pressure_centre,
             normal: geometry.normal,
             overlap: geometry.overlap,
-            area: section.elastic_area,
-            section: section.area,
+            area: geometry.area.max(self.corner_area * square),
+            section: geometry.area,
             width: geometry.width,
             limit: geometry.limit,
-            force: law::force(joint, &section, &motion, &history),
+            force: law::Force {
+                // A broken bond stays broken.
+                history: before.map_or_else(History::default, unbonded),
+                ..law::Force::default()
+            },
             bond: None,
             stored: before.map_or(0.0, |contact| contact.stored),
             power: before.map_or(0.0, |contact| contact.power),
+        }
+    }
+
+    /// Adds the forces of the contacts in a chunk without a bond.
+    fn act(&self, chunk: &mut Chunk, shares: &DampingShares) {
+        for (index, geometry) in &chunk.geometries {
+            let contact = &mut chunk.contacts[*index];
+            let mut parts = contact.parts.iter();
+            let section = law::Section {
+                normal: contact.normal,
+                overlap: contact.overlap,
+                area: contact.section,
+                elastic_area: contact.area,
+                spread: geometry.spread,
+                rolls: parts.any(|&part| self.parts.placed[part as usize].is_sphere()),
+                opening: 0.0,
+            };
+            let joint = self.joint(contact.blocks);
+            let motion = self.motion(contact.blocks, contact.pressure_centre, contact.image_shift);
+            let motion = motion.damped_by(shares.share(contact, self.bodies_of_contacts()));
+            contact.force = law::force(joint, &section, &motion, &contact.force.history);
+        }
+    }
+
+    fn bodies_of_contacts(&self) -> Bodies<'_> {
+        Bodies {
+            bodies: self.bodies,
+            parts: self.parts,
+            mid_steps: self.mid_steps,
+            joints: self.joints,
+            repeated: self.periods.is_some(),
         }
     }
 
@@ -349,6 +420,7 @@ impl Narrowphase<'_> {
         [first, second]: [&Placed; 2],
         bond: &Arc<Bond>,
         before: Option<&Contact>,
+        shares: &DampingShares,
     ) -> Option<Contact> {
         let PairIds {
             parts,
@@ -372,6 +444,8 @@ impl Narrowphase<'_> {
         };
         let history = before.map_or(fresh, |contact| contact.force.history);
         let motion = self.motion(blocks, now.point, image_shift);
+        let share = |before| shares.share(before, self.bodies_of_contacts());
+        let motion = motion.damped_by(before.map_or(1.0, share));
         let force = law::force(joint, &section, &motion, &history);
         force.history.bonded.then(|| Contact {
             parts,

@@ -137,8 +137,8 @@ fn supports(setup: &Setup, blocks: &Blocks, block: usize) -> Vec<Support> {
 
 /// Gap within which two faces touch, as a fraction of the block's radius: the rounding of scenes.
 const CLOSED: f64 = 1e-4;
-/// Smallest area of a touching patch, as a fraction of the square of the block's radius: the edges of the faces next to the
-/// base reach the ground too, because contacts overlap.
+/// Smallest area of the touching patches of one direction, as a fraction of the square of the block's radius: the edges of the faces
+/// next to the base reach the ground too, because contacts overlap.
 const AREA: f64 = 1e-3;
 
 /// A patch in which a block touches another one.
@@ -234,6 +234,18 @@ fn faces_on_others(setup: &Setup, blocks: &Blocks, block: usize, known: &[usize]
             );
         }
     }
+    // Terrain has many small pieces: they count together.
+    let same = |a: &Touching, b: &Touching| a.normal.dot(b.normal) > SAME;
+    let whole = |touch: &Touching| {
+        let same = found.iter().filter(|other| same(touch, other));
+        same.map(|other| other.area).sum::<f64>()
+    };
+    let large: Vec<bool> = found
+        .iter()
+        .map(|touch| whole(touch) > AREA * radius * radius)
+        .collect();
+    let mut large = large.into_iter();
+    found.retain(|_| large.next().unwrap_or_default());
     found
 }
 
@@ -256,7 +268,7 @@ fn faces_on(
                 let shifted = polygon.iter().map(|x| x + CLOSED * radius * out);
                 let corners = its.clipped(shifted.collect());
                 let area = area_of(&corners).1.length();
-                if area > AREA * radius * radius {
+                if area > 0.0 {
                     found.push(Touching {
                         other,
                         normal: -out,

@@ -15,6 +15,7 @@ mod guide;
 mod law;
 mod periodic;
 mod reproducibility;
+mod restitution;
 mod rolling;
 mod safety;
 mod stack;

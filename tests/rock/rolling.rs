@@ -7,36 +7,53 @@ use glam::DVec3;
 use kit::assert_relative;
 use riprap::{
     geometry::Shape,
-    rock::{Block, Blocks},
+    rock::{Block, Blocks, Setup},
 };
 
 const RADIUS: f64 = 0.2;
 const STIFFNESS: f64 = 1e11;
 const G: f64 = 9.81;
 const FRICTION: f64 = 30.0;
+/// s, for pieces of any size.
+const TIME_STEP: f64 = 1e-5;
 
 /// A sphere on a plate that slopes down by `alpha` degrees along x, at its equilibrium overlap. Contacts have a tenth of
 /// the critical damping.
 fn on_plate(alpha: f64, velocity: DVec3) -> Blocks {
+    on_pieces(alpha, velocity, &[[-2.0, -1.5, 10.0, 1.5]])
+}
+
+/// The same on a plate of several pieces, each from one corner (x, y) to the opposite one, m.
+fn on_pieces(alpha: f64, velocity: DVec3, pieces: &[[f64; 4]]) -> Blocks {
     let turn = slope(alpha);
     let volume = 4.0 / 3.0 * std::f64::consts::PI * RADIUS.powi(3);
     let weight = 2500.0 * volume * G * alpha.to_radians().cos();
     // The section is a circle with an area of 2π r u.
     let pressed = (weight / (STIFFNESS * std::f64::consts::TAU * RADIUS)).sqrt();
-    let plate = cuboid(12.0, 3.0, 1.0);
-    let plate = Block::new("plate", plate, turn * DVec3::new(4.0, 0.0, -0.5));
+    let piece = |&[x, y, to_x, to_y]: &[f64; 4]| {
+        let centre = DVec3::new(0.5 * (x + to_x), 0.5 * (y + to_y), -0.5);
+        let shape = cuboid(to_x - x, to_y - y, 1.0);
+        Block::new("plate", shape, turn * centre)
+            .fixed()
+            .rotated(turn)
+    };
     let sphere = Shape::sphere(RADIUS).expect("the radius is positive");
     let at = turn * DVec3::Z * (RADIUS - pressed);
     let mut sphere = Block::new("sphere", sphere, at);
     sphere.velocity = turn * velocity;
     let mut joint = joint(STIFFNESS, FRICTION);
     joint.damping = 0.1;
-    blocks(setup(vec![plate.fixed().rotated(turn), sphere], joint))
+    let plate = pieces.iter().map(piece);
+    let setup = setup([sphere].into_iter().chain(plate).collect(), joint);
+    blocks(Setup {
+        time_step: Some(TIME_STEP),
+        ..setup
+    })
 }
 
 fn motion(blocks: &Blocks) -> (DVec3, DVec3) {
-    let spin = blocks.spins().nth(1).expect("there are two");
-    (blocks.poses()[1].velocity, spin)
+    let spin = blocks.spins().next().expect("there is a sphere");
+    (blocks.poses()[0].velocity, spin)
 }
 
 #[test]
@@ -65,4 +82,36 @@ fn one_that_slides_on_the_level_ends_with_five_sevenths_of_its_speed() {
     let exact = 5.0 / 7.0 * start;
     assert_relative(velocity.x, exact, 1e-3);
     assert_relative(spin.y * RADIUS, exact, 1e-3);
+}
+
+/// Seams across the path, along it, and at nodes: at each only one piece is touched, and it takes over the friction.
+#[test]
+fn seams_of_a_floor_do_not_disturb_it() {
+    let start = DVec3::new(2.0, 0.3, 0.0);
+    let paths = |pieces: &[[f64; 4]]| {
+        let mut blocks = on_pieces(3.0, start, pieces);
+        let path = (1..=8).map(|n| {
+            run(&mut blocks, 0.1 * f64::from(n));
+            assert!(blocks.contacts().count() <= 1, "at {n}");
+            let (velocity, spin) = motion(&blocks);
+            [blocks.poses()[0].centre, velocity, spin]
+        });
+        path.collect::<Vec<_>>()
+    };
+    let whole = paths(&[[-2.0, -1.5, 10.0, 1.5]]);
+    let pieces = [
+        [-2.0, -1.5, 0.0, 0.0],
+        [-2.0, 0.0, 0.0, 1.5],
+        [0.0, -1.5, 0.55, 0.0],
+        [0.0, 0.0, 0.31, 1.5],
+        [0.31, 0.0, 1.2, 1.5],
+        [0.55, -1.5, 10.0, 0.0],
+        [1.2, 0.0, 10.0, 0.2],
+        [1.2, 0.2, 10.0, 1.5],
+    ];
+    for (whole, cut) in whole.iter().zip(paths(&pieces)) {
+        for (a, b) in whole.iter().zip(cut) {
+            assert!(a.distance(b) < 1e-11, "{a} and {b}");
+        }
+    }
 }

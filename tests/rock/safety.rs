@@ -232,3 +232,28 @@ fn cohesion_counts_with_the_section_and_not_with_the_area_of_corners() {
     let exact = (1e4 * 0.01 + weight) / weight;
     assert_relative(found.factor, exact, 1e-3);
 }
+
+/// A block on many small pieces has the factors of one on a slab, also before it has contacts.
+#[test]
+fn a_floor_of_small_pieces_counts_as_a_whole() {
+    let block = || Block::new("block", cuboid(1.0, 1.0, 1.0), DVec3::Z * 0.5);
+    let side = 0.025;
+    let piece = |k: usize| {
+        let [x, y] = [k / 44, k % 44].map(|i| (i as f64 - 21.5) * side);
+        let at = DVec3::new(x, y, -0.5);
+        Block::new("floor", cuboid(side, side, 1.0), at).fixed()
+    };
+    let load = [DVec3::X * 1e3, DVec3::ZERO];
+    let factors = |floor: Vec<Block>| {
+        let list = [block()].into_iter().chain(floor).collect();
+        let setup = setup(list, joint(1e9, 30.0));
+        SafetyFactors::of(&setup, &blocks(setup.clone()), 0, load)
+    };
+    let slab = Block::new("floor", cuboid(1.1, 1.1, 1.0), DVec3::Z * -0.5);
+    let (whole, pieces) = (
+        factors(vec![slab.fixed()]),
+        factors((0..44 * 44).map(piece).collect()),
+    );
+    assert_relative(pieces.sliding.factor, whole.sliding.factor, 1e-6);
+    assert_relative(pieces.toppling, whole.toppling, 1e-3);
+}

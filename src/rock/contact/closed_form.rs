@@ -130,19 +130,14 @@ pub(super) fn sphere_sphere(a: &Placed, b: &Placed) -> Proximity {
 /// while the sphere rolls over them.
 pub(super) fn sphere_polyhedron(block: &Placed, sphere: &Placed) -> Proximity {
     let centre = sphere.centre - block.centre;
-    let height = |k: usize| block.faces[k].normal.dot(centre) - block.faces[k].distance;
-    let top =
-        (0..block.faces.len()).fold(0, |best, k| if height(k) > height(best) { k } else { best });
-    // The whole block lies below the plane of the top face, moved to the centre.
-    let depth = height(top);
-    let tolerance = 4.0 * f64::EPSILON * (block.radius + centre.length());
-    let face = block.faces[top].normal;
-    let (normal, distance, foot) = if depth <= tolerance {
-        (face, depth, centre - face * depth)
-    } else {
-        let foot = nearest(&block.faces, centre, tolerance);
-        let away = centre - foot;
-        (away.normalize_or(face), away.length(), foot)
+    let top = top_face(block, centre);
+    let (normal, distance, foot) = match top.inside {
+        true => (top.normal, top.height, centre - top.normal * top.height),
+        false => {
+            let foot = nearest(&block.faces, centre, top.tolerance);
+            let away = centre - foot;
+            (away.normalize_or(top.normal), away.length(), foot)
+        }
     };
     let radius = sphere.radius;
     let h = distance.max(0.0);
@@ -150,6 +145,43 @@ pub(super) fn sphere_polyhedron(block: &Placed, sphere: &Placed) -> Proximity {
     Proximity {
         gap: distance - radius,
         contact: round(block.centre + foot, normal, radius - distance, circle),
+    }
+}
+
+/// The point of the surface of a polyhedron next to the point `at`, both from its centroid, m.
+pub(in crate::rock) fn nearest_point(block: &Placed, at: DVec3) -> DVec3 {
+    let top = top_face(block, at);
+    match top.inside {
+        true => at - top.normal * top.height,
+        false => nearest(&block.faces, at, top.tolerance),
+    }
+}
+
+/// The face of a polyhedron whose plane a point is highest above.
+struct TopFace {
+    normal: DVec3,
+    /// Height of the point, m; the whole block lies below the plane that is moved by it.
+    height: f64,
+    /// Rounding of lengths, m.
+    tolerance: f64,
+    /// Whether the point lies in the block.
+    inside: bool,
+}
+
+/// The top face under the point `at`, from the centroid, m.
+fn top_face(block: &Placed, at: DVec3) -> TopFace {
+    let height = |k: usize| block.faces[k].normal.dot(at) - block.faces[k].distance;
+    let top =
+        (0..block.faces.len()).fold(0, |best, k| if height(k) > height(best) { k } else { best });
+    let (height, tolerance) = (
+        height(top),
+        4.0 * f64::EPSILON * (block.radius + at.length()),
+    );
+    TopFace {
+        normal: block.faces[top].normal,
+        height,
+        tolerance,
+        inside: height <= tolerance,
     }
 }
 

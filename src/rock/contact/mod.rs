@@ -46,6 +46,7 @@ mod thin_gap;
 
 pub use crate::geometry::Placed;
 pub use bond::{Bond, BondState};
+pub(super) use closed_form::nearest_point;
 pub use pair::Cache;
 pub use resolver::{ContactGeometry, Counts, Normal, Options, Resolver, Verdict};
 pub use thin_gap::{GapShape, ThinGap};

@@ -14,7 +14,8 @@
 //! The dashpots are distributed over the face like the springs: 3DEC has them in every sub-contact. At a single point they
 //! would not damp rocking, since the pressure centre of a rocking block moves with the angle:
 //! the damping would be of second order in it, and a stack would never come to rest. Their moments
-//! are c_n n × S (n × ω) for rocking and c_s ρ² for twist. A sphere touches at a point: nothing resists its twist. It rolls on its contact
+//! are c_n n × S (n × ω) for rocking and c_s ρ² for twist. If two bodies touch with several parts, these share the damping: each
+//! has the share k_n A/Σ k_n A of the mass m*. A sphere touches at a point: nothing resists its twist. It rolls on its contact
 //! instead of rocking: the contact moves with it, the springs dissipate nothing, and no dashpot resists the rolling.
 //!
 //! A bond is a contact whose springs also carry tension: it keeps its initial area, and bends over it as an elastic
@@ -77,8 +78,19 @@ pub struct Motion {
     pub frame: DQuat,
     /// Time step, s.
     pub time_step: f64,
-    /// Reduced mass m*, kg: m₁m₂/(m₁ + m₂), or the mass of the only free block.
+    /// Reduced mass m*, kg: m₁m₂/(m₁ + m₂), or the mass of the only free block; if there are several contacts, the share of this
+    /// one.
     pub mass: f64,
+}
+
+impl Motion {
+    /// The motion for a contact with this share in the stiffness of all contacts of its bodies: c = 2ζ√(share m* k).
+    pub fn damped_by(self, share: f64) -> Self {
+        Self {
+            mass: self.mass * share,
+            ..self
+        }
+    }
 }
 
 /// Action of a contact on the second block; the first gets the opposite.

@@ -8,7 +8,7 @@ use super::super::{
 };
 use super::{Rock, Safety};
 use crate::picture::Track;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use riprap::{
     Error,
     coupling::{Coupled, JointLoad},
@@ -154,7 +154,7 @@ fn measure(rock: &Rock<'_>, block: usize) -> Row {
     let blocks = rock.blocks;
     let pose = blocks.poses()[block];
     let at_start = rock.setup.blocks[block].rotation;
-    let turned = (blocks.rotation(block) * at_start.conjugate()).to_scaled_axis();
+    let turned = rotation_vector(blocks.rotation(block) * at_start.conjugate());
     let mut row = Row::default();
     row.vector("position", pose.centre);
     row.vector("velocity", pose.velocity);
@@ -234,6 +234,16 @@ fn face_row(load: &FaceLoad, joint: bool, closed: Option<&JointLoad>) -> Row {
     row
 }
 
+/// Axis times angle, rad: at most π, of the two quaternions of a rotation that of the smaller angle.
+fn rotation_vector(rotation: DQuat) -> DVec3 {
+    let near = if rotation.w < 0.0 {
+        -rotation
+    } else {
+        rotation
+    };
+    near.to_scaled_axis()
+}
+
 /// The factors of safety of a block.
 fn standing(rock: &Rock<'_>, block: usize) -> SafetyFactors {
     SafetyFactors::of(rock.setup, rock.blocks, block, fluid_wrench(rock, block))
@@ -253,4 +263,18 @@ pub fn fluid_wrench(rock: &Rock<'_>, block: usize) -> [DVec3; 2] {
         ]
     };
     fluid.unwrap_or_else(whole)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotations_are_at_most_half_a_turn() {
+        for (degrees, expected) in [(100.0, 100.0), (190.0, -170.0), (350.0, -10.0)] {
+            let turned = rotation_vector(DQuat::from_rotation_z(f64::to_radians(degrees)));
+            let expected = DVec3::Z * f64::to_radians(expected);
+            assert!(turned.distance(expected) < 1e-12, "{degrees}: {turned}");
+        }
+    }
 }

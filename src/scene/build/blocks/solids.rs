@@ -12,6 +12,9 @@ use crate::{
 };
 use glam::DVec3;
 
+/// Layers of particles below the surface of a solid, at most.
+const PARTICLE_LAYERS: f64 = 4.0;
+
 /// The solid `index` as a fixed block.
 pub(super) fn block(scene: &Scene, index: usize, solid: &Solid) -> Result<Block> {
     let key = format!("solids[{index}]");
@@ -55,7 +58,14 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
                 true => (domain.origin, domain.end()),
                 false => ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]),
             };
-            let made = terrain.shape([min[0], min[1]], [max[0], max[1]]);
+            // The particles of a solid lie up to four layers below its surface.
+            let particles = scene.particles.as_ref();
+            let depth = particles.map_or(0.0, |particles| PARTICLE_LAYERS * particles.spacing);
+            let bottom = match domain.is_given() {
+                true => min[2] - depth,
+                false => f64::INFINITY,
+            };
+            let made = terrain.shape([min[0], min[1]], [max[0], max[1]], bottom);
             made.map_err(|error| error.at_key(|what| format!("{key}.{what}")))
         }
         scene::Shape::Mesh {

@@ -23,6 +23,10 @@ struct SlopingCell {
     given: f32,
     // Area of the face that acts on the cell, in faces of a cell; 0 below the top of a column.
     area: f32,
+    // Without momentum along the face the cell gives off w (1 - c.still), in the axes of tangents(normal): the inverse of its sum, 0
+    // where all directions have such momentum.
+    per_sum: f32,
+    still: vec2<f32>,
 }
 
 const NO_SLOPE = 0xffffu;

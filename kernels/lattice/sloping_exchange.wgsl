@@ -2,8 +2,9 @@
 // reflected the populations that arrived. Those that now leave to the fluid get w c.m more, m along the face: the tangential momentum
 // that arrived leaves again, less the stress of the law of the wall times the area of the face in the column of the cell. The
 // surface of the full cells is a staircase; with m, the velocity of the solid along the face crosses its steps. What one cell
-// takes in, others give off: leaks proportional to the amounts make the sum zero. The momentum that arrived is that without the
-// pressure, of which single steps of the staircase have a part along the face, and without that of fluid at rest.
+// takes in, others give off: leaks proportional to the amounts, without momentum along the face, make the sum zero. The momentum
+// that arrived is that without the pressure, of which single steps of the staircase have a part along the face, and without that of
+// fluid at rest.
 // needs sloping_cell, incoming, weights, balanced_cell_force, $mirror
 
 // Sums of what the cells at such faces give off, and of its amounts: each in units of 2^-24 by the multiples of 1024 and the rest, so
@@ -17,12 +18,14 @@ fn clear_slip_sums(local: u32) {
     workgroupBarrier();
 }
 
-fn add_to_slip_sums(given: f32) {
+fn add_to_slip_sums(face: SlopingCell) {
+    let given = face.given;
     let units = i32(round(clamp(given, -1.0, 1.0) * 16777216.0));
     atomicAdd(&slip_sums[0u], units >> 10u);
     atomicAdd(&slip_sums[1u], units & 1023);
-    atomicAdd(&slip_sums[2u], abs(units) >> 10u);
-    atomicAdd(&slip_sums[3u], abs(units) & 1023);
+    let takes = select(0, abs(units), face.per_sum > 0.0);
+    atomicAdd(&slip_sums[2u], takes >> 10u);
+    atomicAdd(&slip_sums[3u], takes & 1023);
 }
 
 // What is given off over its amount, from these sums over all cells.
@@ -36,6 +39,16 @@ fn weight_of(directions: u32) -> f32 {
     return weight(1u) * f32(countOneBits(directions & 0x7eu))
         + weight(7u) * f32(countOneBits(directions & 0x7ff80u))
         + weight(19u) * f32(countOneBits(directions & 0x7f80000u));
+}
+
+// Excess of the density of a cell over that of fluid at rest, from the populations that its neighbours load next.
+fn excess_density(cell: vec3<u32>) -> f32 {
+    let at = neighbourhood(cell);
+    var sum = read_scalar(0u, scalar_at(at, vec3(0)));
+    for (var q = 1u; q < 27u; q++) { // unroll
+        sum += read_outgoing(at, q);
+    }
+    return sum;
 }
 
 // Changes the face to that with the m of a full cell of a solid with this velocity, and with the sum that its populations get.
@@ -62,34 +75,48 @@ fn slip_at_slope(at: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f
         }
     }
     let weights = mat3x3(columns[0], columns[1], columns[2]);
+    let all = weight_of(face.open);
     // Relative to the solid.
     sum -= 3.0 * dot(outward, velocity);
     leaving -= 3.0 * (weights * velocity);
-    // Least squares of f = w (excess + c.slip), slip along the face.
-    let mean = outward / weight_of(face.open);
-    let spread = mat3x3(columns[0] - outward.x * mean, columns[1] - outward.y * mean, columns[2] - outward.z * mean);
-    let slip = tangential_solution(spread, face.normal, leaving - sum * mean);
-    let excess = (sum - dot(outward, slip)) / weight_of(face.open);
-    leaving -= excess * outward;
-    let speed = length(face.u);
     // Of the deviation from the equilibrium of a solid that moves, full cells return a part only: see damping_in_full_cells.
     let kept = 1.0 - min(abs(velocity.x) + abs(velocity.y) + abs(velocity.z), 0.9);
+    // Without the pressure, which is that where the law has read the velocity.
+    var excess = 0.0;
+    if (kept > LEAST_KEPT) {
+        excess = excess_density(cell_of_scalar(face.sample)) - 2.0 * face.distance * dot(at_rest, face.normal);
+    } else {
+        // In cells of a solid that moves there is noise: least squares of f = w (excess + c.slip), slip along the face.
+        let mean = outward / all;
+        let spread = mat3x3(columns[0] - outward.x * mean, columns[1] - outward.y * mean, columns[2] - outward.z * mean);
+        excess = (sum - dot(outward, tangential_solution(spread, face.normal, leaving - sum * mean))) / all;
+    }
+    leaving -= excess * outward;
+    let speed = length(face.u);
     let change = -(1.0 + 1.0 / kept) * leaving - face.area * face.friction * face.friction / max(speed, 1e-30) * face.u;
     let m = tangential_solution(weights, face.normal, change);
     // Limits the velocity m/6 to twice the velocity that the law has read.
     face.slip = share * min(1.0, 12.0 * speed / max(length(m), 1e-30)) * m;
     face.given = dot(outward, face.slip);
+    // The leaks of a solid that moves have momentum along the face.
+    let still = select(vec3(0.0), tangential_solution(weights, face.normal, outward), kept > LEAST_KEPT);
+    let still_sum = all - dot(outward, still);
+    let axes = tangents(face.normal);
+    face.still = vec2(dot(axes[0], still), dot(axes[1], still));
+    face.per_sum = select(0.0, 1.0 / still_sum, still_sum > LEAST_STILL * all);
     return face;
 }
 
 // Changes the populations that leave a full cell by its m; returns the momentum that the fluid gains.
 fn exchange_at_slope(face: SlopingCell, cell: vec3<u32>, balance: f32) -> vec3<f32> {
     let around = neighbourhood(cell);
-    let leak = balance * abs(face.given) / weight_of(face.open);
+    let leak = balance * abs(face.given) * face.per_sum;
+    let axes = tangents(face.normal);
+    let along = face.slip + leak * (axes[0] * face.still.x + axes[1] * face.still.y);
     var gained = vec3(0.0);
     for (var q = 1u; q < 27u; q++) { // unroll
         if ((face.open & (1u << q)) != 0u) {
-            let more = weight(q) * (dot(vec3<f32>(C[q]), face.slip) - leak);
+            let more = weight(q) * (dot(vec3<f32>(C[q]), along) - leak);
             let word = returned(around, face.slope, q);
             write_scalar(word.direction, word.scalar, read_scalar(word.direction, word.scalar) + more);
             gained += more * vec3<f32>(C[q]);
@@ -98,12 +125,19 @@ fn exchange_at_slope(face: SlopingCell, cell: vec3<u32>, balance: f32) -> vec3<f
     return gained;
 }
 
+// Two unit vectors normal to n and to each other.
+fn tangents(n: vec3<f32>) -> array<vec3<f32>, 2> {
+    let other = select(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), abs(n.x) > 0.6);
+    let first = normalize(cross(n, other));
+    return array(first, cross(n, first));
+}
+
 // The vector m normal to n for which the part of M m normal to n is that of b. M is singular where few directions are open; b is
 // then in its range up to rounding.
 fn tangential_solution(matrix: mat3x3<f32>, n: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
-    let other = select(vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), abs(n.x) > 0.6);
-    let first = normalize(cross(n, other));
-    let second = cross(n, first);
+    let axes = tangents(n);
+    let first = axes[0];
+    let second = axes[1];
     let by_first = matrix * first;
     let by_second = matrix * second;
     let a = dot(first, by_first);
@@ -119,6 +153,12 @@ fn tangential_solution(matrix: mat3x3<f32>, n: vec3<f32>, b: vec3<f32>) -> vec3<
     let solved = (determinant * adjugate + s * product) / squares;
     return solved.x * first + solved.y * second;
 }
+
+// Part of the deviation that a solid keeps below which it moves: at 0.2 % of the lattice speed.
+const LEAST_KEPT = 0.998;
+
+// Part of the weights of the open directions that must be without momentum along the face.
+const LEAST_STILL = 0.5;
 
 // Eigenvalues of M below this count as 0: the part of b there is rounding. One direction along the face has 1/216 or more.
 const SMALLEST = 1e-5;

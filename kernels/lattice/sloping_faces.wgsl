@@ -19,6 +19,8 @@ const HIGH_COLUMN = 99.0;
 // Full cells lie inside the surface, and their columns reach the edges of a convex solid only up to this distance, cells, on
 // average: with it turned prisms have their area.
 const EDGE_DEPTH = 1.2;
+// Slope up to which faces at an edge count in part as along the grid.
+const SLOPE_OF_EDGES = 0.2;
 // Cells beside an edge up to which other solid makes the gap too narrow for a stream.
 const EDGE_GAP = 4u;
 // Ratio of the two largest components towards less solid from which a column may run along the second: where the only cells that
@@ -111,6 +113,8 @@ struct Profile {
     // Distance by which the surface is longer than its part in the columns with full cells: where it turns by an angle, twice the
     // depth of these cells times the tangent of half the angle.
     longer: f32,
+    // 1 at the edge of a face along the grid, 0 where there is no edge or the face slopes.
+    straight: f32,
 }
 
 fn profile_along(cell: vec3<u32>, face: u32, axis: u32, height: f32) -> Profile {
@@ -121,17 +125,23 @@ fn profile_along(cell: vec3<u32>, face: u32, axis: u32, height: f32) -> Profile 
     if (is_height(before) && is_height(after)) {
         let half_angle = (rise - next) / (sqrt((1.0 + rise * rise) * (1.0 + next * next)) + 1.0 + rise * next);
         let slope = select(LARGEST_SLOPE, 0.5 * (after - before), abs(next - rise) <= FLAT);
-        return Profile(slope, 2.0 * EDGE_DEPTH * half_angle);
+        return Profile(slope, 2.0 * EDGE_DEPTH * half_angle, 0.0);
     }
-    let both = beyond_edge(cell, 2u * axis, before) + beyond_edge(cell, 2u * axis + 1u, after);
-    return Profile(LARGEST_SLOPE, EDGE_DEPTH * both);
+    // At an edge the face is straight if the height does not change towards the other side.
+    let change = abs(select(rise, next, is_height(after)));
+    let straight = select(0.0, 1.0 - min(change / SLOPE_OF_EDGES, 1.0), is_height(before) || is_height(after));
+    let above = fraction_at(through(cell, face, 1u));
+    let below = beyond_edge(cell, 2u * axis, before, straight, above);
+    return Profile(LARGEST_SLOPE, below + beyond_edge(cell, 2u * axis + 1u, after, straight, above), straight);
 }
 
-// Faces that reach beyond the columns with full cells, on the side of a column with this height: this one, and the one around the
-// edge if fluid lies in front of it.
-fn beyond_edge(cell: vec3<u32>, side: u32, height: f32) -> f32 {
+// Length by which this face, and the one around the edge if fluid lies in front of it, reach beyond the columns with full cells, on
+// the side of a column with this height. Along the grid these are the cells that the faces cut, and the side of the cell.
+fn beyond_edge(cell: vec3<u32>, side: u32, height: f32, straight: f32, above: f32) -> f32 {
     // A branch would spill registers on VEGA20.
-    return select(0.0, select(1.0, 2.0, has_fluid(cell, side, 0.5, 0u, EDGE_GAP)), height == NO_COLUMN);
+    let faces = select(1.0, 2.0, has_fluid(cell, side, 0.5, 0u, EDGE_GAP));
+    let along_grid = fraction_at(beside(cell, side)) + (faces - 1.0) * (1.0 + above);
+    return select(0.0, mix(faces * EDGE_DEPTH, along_grid, straight), height == NO_COLUMN);
 }
 
 // Whether the cells of a column beyond `after` others, up to one of them, are fluid and hold no solid, if the face cannot cut them.
@@ -211,7 +221,8 @@ fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
         return found;
     }
     found.open = select(0u, found.open, here.fraction >= FULL);
-    found.area = select(0.0, max(1.0 / rise + profile_x.longer + profile_y.longer, 0.0), top);
+    let own = mix(1.0 / rise, 1.0, max(profile_x.straight, profile_y.straight));
+    found.area = select(0.0, max(own + profile_x.longer + profile_y.longer, 0.0), top);
     found.slope = face | select(0u, SLOPE_TOP, top) | (cells << SLOPE_CELLS) | (mirrors_of(cell) << SLOPE_FREE_SLIP);
     found.sample = scalar_of(through(cell, face, cells));
     found.distance = (f32(cells) - height) * rise;

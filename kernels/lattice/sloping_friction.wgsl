@@ -103,7 +103,7 @@ fn sloping_slip(
         if (slopes[n].open != 0u && share > 0.0) {
             let here = outer_cell(slopes[n].outer);
             slopes[n] = slip_at_slope(slopes[n], here.cell, velocity_of_block(here.solid), share);
-            add_to_slip_sums(slopes[n].given);
+            add_to_slip_sums(slopes[n]);
         }
     }
     workgroupBarrier();

@@ -85,7 +85,7 @@ fn surface_slip(
         let share = share_at(n);
         if (slopes[n].open != 0u && share > 0.0) {
             slopes[n] = slip_at_slope(slopes[n], padded_cell(wall_cells[n].cell), vec3(0.0), share);
-            add_to_slip_sums(slopes[n].given);
+            add_to_slip_sums(slopes[n]);
         }
     }
     workgroupBarrier();

@@ -14,6 +14,8 @@ const EDGE_DEPTH: f64 = 1.2;
 /// the solid with the edge.
 const EDGE_GAP: usize = 4;
 const EDGE_CELLS: usize = 2;
+/// Slope up to which faces at an edge count in part as along the grid.
+const SLOPE_OF_EDGES: f64 = 0.2;
 /// Cells of a column from the surface to full or empty ones.
 const PARTIAL: usize = 4;
 
@@ -51,6 +53,8 @@ pub(super) struct Profile {
     pub slope: Option<f64>,
     /// Distance by which the surface is longer than its part in the columns with full cells, cells.
     pub longer: f64,
+    /// 1 at the edge of a face along the grid, 0 where there is no edge or the face slopes.
+    pub straight: f64,
 }
 
 impl Solids<'_> {
@@ -148,17 +152,34 @@ impl Solids<'_> {
             return Profile {
                 slope: is_flat.then_some(slope),
                 longer: 2.0 * EDGE_DEPTH * (0.5 * turn).tan(),
+                straight: 0.0,
             };
         }
-        // Beyond an edge the columns of this face end, and those of the face around it, if fluid lies in front of that one.
-        let faces = sides.into_iter().zip([-1, 1]).map(|(side, by)| match side {
-            Column::Low if self.has_gap(cell, Self::step(along, by)) => 2.0,
-            Column::Low => 1.0,
-            Column::Height(_) | Column::High => 0.0,
+        // At an edge the face is straight if the height does not change towards the other side.
+        let heights = sides.into_iter().filter_map(Column::height);
+        let changes = heights.map(|other| (other - height).abs());
+        let change = changes.fold(f64::INFINITY, f64::min);
+        let straight = 1.0 - (change / SLOPE_OF_EDGES).min(1.0);
+        let part = |step: [i32; 3]| {
+            self.neighbour(cell, step)
+                .map_or(0.0, |at| self.fraction(at))
+        };
+        // Beyond an edge the columns of this face end, and those of the face around it, if fluid lies in front of that one. Along
+        // the grid that are the cells that the faces cut, and the side of the cell.
+        let beyond = sides.into_iter().zip([-1, 1]).map(|(side, by)| {
+            let step = Self::step(along, by);
+            let faces = match side {
+                Column::Low if self.has_gap(cell, step) => 2.0,
+                Column::Low => 1.0,
+                Column::Height(_) | Column::High => return 0.0,
+            };
+            let along_grid = part(step) + (faces - 1.0) * (1.0 + part(Self::step(axis, out)));
+            straight * along_grid + (1.0 - straight) * faces * EDGE_DEPTH
         });
         Profile {
             slope: None,
-            longer: EDGE_DEPTH * faces.sum::<f64>(),
+            longer: beyond.sum(),
+            straight,
         }
     }
 

@@ -25,6 +25,8 @@ const LEAST_HEIGHT: f64 = 0.25;
 pub(super) const TOP: u32 = 8;
 const CELLS: u32 = 4;
 const FREE_SLIP: u32 = 8;
+/// Smallest sum towards less solid: the cells that a surface cuts are at most 1 − 1e-4 full.
+const LEAST: f64 = 1e-4;
 /// The directions through the six faces of a cell.
 const SIDES: u32 = 0x7e;
 
@@ -54,8 +56,9 @@ pub(super) struct SlopingCell {
     pub given: f32,
     /// Area of the face that acts on the cell, in faces of a cell; 0 below the top of a column.
     pub area: f32,
-    /// Not used.
-    pub pad: [f32; 3],
+    /// Of what it gives off without momentum along the face, the inverse sum and the direction.
+    pub per_sum: f32,
+    pub still: [f32; 2],
 }
 
 /// A cell of fluid near the surface, as `surface_friction.wgsl` has it.
@@ -134,7 +137,7 @@ impl Solids<'_> {
             let order: i32 = c.iter().map(|c| c.abs()).sum();
             less -= f64::from(4 >> (order - 1)) * fraction * DVec3::from_array(c.map(f64::from));
         }
-        if open == 0 || less.length() < 1e-3 {
+        if open == 0 || less.length() < LEAST {
             return None;
         }
         let mut axes = [0, 1, 2];
@@ -177,7 +180,9 @@ impl Solids<'_> {
                 continue;
             }
             let face = (2 * axis) as u32 + u32::from(out > 0);
-            let area = 1.0 / rise + profiles[0].longer + profiles[1].longer;
+            let straight = profiles[0].straight.max(profiles[1].straight);
+            let area = 1.0 / rise + straight * (1.0 - 1.0 / rise);
+            let area = area + profiles[0].longer + profiles[1].longer;
             let slope = SlopingCell {
                 slope: face
                     | if top { TOP } else { 0 }
@@ -327,6 +332,8 @@ mod tests {
             ("slip", offset_of!(SlopingCell, slip)),
             ("given", offset_of!(SlopingCell, given)),
             ("area", offset_of!(SlopingCell, area)),
+            ("per_sum", offset_of!(SlopingCell, per_sum)),
+            ("still", offset_of!(SlopingCell, still)),
         ];
         check::<SlopingCell>(&module, "SlopingCell", &sloping).unwrap();
         let near = [

@@ -1,6 +1,7 @@
 //! Static solids at the exact position of their surface, next to blocks; blocks on terrain.
 
 use crate::probed_at_end;
+use glam::DVec3;
 use kit::{Rig, assert_near};
 use riprap::{
     scene::{Face, Scene},
@@ -226,6 +227,50 @@ fn friction_on_block(rig: &Rig, scene: &Scene) -> f64 {
     forces.sum::<f64>() / 60.0
 }
 
+/// Across the steps of the full cells, too, a slope has the friction of the law: the pressure on single steps cancels.
+#[test]
+fn a_stream_along_a_slope_has_the_friction_of_the_law() {
+    let rig = Rig::new();
+    let (cell, height) = (0.05, 1.0);
+    for (run, limit) in [(1.0, 0.05), (2.0, 0.3), (3.0, 2.0), (5.0, 0.4), (8.0, 0.5)] {
+        let along = DVec3::new(run, 0.0, 1.0).normalize();
+        // Slabs through the corners of the period; the others are their images.
+        let block = |n: usize| {
+            format!(
+                "size = [{}, 2, 0.3]\nposition = [{}, {}, {}]\nmotion = \"fixed\"\n\
+                 rotation = {{ axis = [0, 1, 0], angle = {} }}\n",
+                6.0 * run.hypot(height),
+                0.5 * run * height,
+                0.5 * cell,
+                (n as f64 - 1.5) * height,
+                -(1.0 / run).atan().to_degrees(),
+            )
+        };
+        let blocks: Vec<String> = (0..5).map(block).collect();
+        let domain = format!(
+            "domain = {{ size = [{}, {cell}, {height}], cell = {cell} }}\ninitial = {{ velocity = {:?} }}",
+            run * height,
+            along.to_array()
+        );
+        let scene = past_block(&domain, &blocks.join("[[blocks]]\nkind = \"box\"\n"));
+        let mut simulation = rig.simulation(&scene).unwrap();
+        let mut momentum = |steps: u64| {
+            rig.wait(simulation.advance(steps)).unwrap();
+            let totals = rig.wait(simulation.totals()).unwrap();
+            (simulation.time(), DVec3::from(totals.momentum).dot(along))
+        };
+        let [(start, before), (end, after)] = [400, 600].map(&mut momentum);
+        let force = (before - after) / (end - start);
+        let frictions = rig.wait(simulation.wall_friction()).unwrap();
+        let walls = frictions.walls.iter();
+        let by_law: f64 = walls
+            .map(|wall| wall.area * DVec3::from(wall.stress).dot(along))
+            .sum();
+        println!("1 : {run}: {force} N, {by_law} N by the law");
+        assert_near(force / by_law, 1.0, limit);
+    }
+}
+
 /// Noise in full cells that move brings fluid to the edges, which have no slip: oblique rods in motion have more friction.
 #[test]
 fn a_rod_in_motion_has_the_friction_of_one_at_rest_in_a_stream() {
@@ -309,7 +354,7 @@ fn walls_under_a_block_are_not_counted_as_walls_with_the_model() {
 #[test]
 fn the_wall_model_acts_on_the_whole_area_of_a_turned_prism() {
     let rig = Rig::new();
-    for angle in [20, 30, 45] {
+    for angle in [0, 20, 30, 45] {
         let domain = "domain = { size = [2.4, 2.4, 0.3], cell = 0.05 }\ninitial = { velocity = [0, 0, 0.8] }";
         let prism = format!(
             "size = [1.2, 1.2, 0.3]\nposition = [1.215, 1.23, 0.15]\nmotion = \"fixed\"\n\

@@ -35,6 +35,8 @@ pub struct Twin {
     steps: u64,
     /// Velocity for WALE and wall models, of the step before or, in an odd step, of the one before that.
     previous_velocity: Option<Vec<[f64; 3]>>,
+    /// Excess of the density before the last collision.
+    pub(super) previous_density: Vec<f64>,
     /// Eddy viscosity of the step before by WALE alone.
     previous_nu_t: Vec<f64>,
     /// Cells that had a block in that step, for the wall model; empty before the first step.
@@ -55,6 +57,7 @@ impl Twin {
             wall_model: None,
             steps: 0,
             previous_velocity: None,
+            previous_density: Vec::new(),
             previous_nu_t: Vec::new(),
             blocks_before: Vec::new(),
         }
@@ -305,6 +308,7 @@ impl Twin {
             .map(|cell| self.solid_at(cell).mean_velocity(self.macroscopic(cell).1))
             .collect();
         let collided = self.collided();
+        self.previous_density = self.f.iter().map(|f| f.iter().sum()).collect();
         self.f = self
             .cells()
             .map(|cell| {

@@ -20,6 +20,8 @@ const REACH: usize = 12;
 const DIAGONAL: f64 = 0.9;
 /// Least distance of that cell from the face.
 const DISTANCE: f64 = 4.0;
+/// What a solid keeps below which it moves.
+const KEPT: f64 = 0.998;
 /// Taper of the mixing length at heights from half a cell on, in steps of a cell.
 const TAPER: [f64; 6] = [1.0, 0.75, 0.4, 0.15, 0.0, 0.0];
 
@@ -45,6 +47,8 @@ pub(super) struct Sloping {
     pub share: f64,
     /// The force on the cell that the pressure balances in fluid at rest.
     pub force: [f64; 3],
+    /// What full cells of the solid keep of the deviation from its equilibrium.
+    pub kept: f64,
 }
 
 /// Solids as columns of cells see them: the fraction in a cell, the fraction of a full one, the cell next to one along an axis, if a
@@ -175,7 +179,7 @@ impl Twin {
             let weight = [4.0, 2.0, 1.0][order as usize - 1];
             (0..3).for_each(|a| less[a] -= weight * fraction * f64::from(C[q][a]));
         }
-        if open.is_empty() || norm(less) < 1e-3 {
+        if open.is_empty() || norm(less) < 1e-4 {
             return None;
         }
         let mut axes = [0, 1, 2];
@@ -195,6 +199,20 @@ impl Twin {
             let is_flat = (before + after - 2.0 * height).abs() <= FLAT && slope.abs() < STEEP;
             is_flat.then_some(slope)
         };
+        // At the edge of a face along the grid, 1.
+        let straight = |side: usize| {
+            let sides = [-1, 1].map(|step| beside(side, step).ok());
+            match sides {
+                [Some(_), Some(_)] | [None, None] => 0.0,
+                [a, b] => {
+                    let change = a.or(b).map_or(0.0, |other| (other - height).abs());
+                    (1.0 - change / 0.2).max(0.0)
+                }
+            }
+        };
+        let part = |side: usize, step: i32| {
+            (columns.around)(cell, along(side, step)).map_or(0.0, columns.fraction)
+        };
         // The part of the surface beyond the columns with full cells: twice where it continues around an edge.
         let beyond = |side: usize, step: i32| {
             let mut at = Some(cell);
@@ -204,11 +222,15 @@ impl Twin {
                     !self.domain.solid[at] && (k <= 2 || (columns.fraction)(at) == 0.0)
                 })
             };
-            match beside(side, step) {
-                Err(NoHeight::Low) if (1..=GAP).all(&mut is_free) => 2.0 * EDGE_DEPTH,
-                Err(NoHeight::Low) => EDGE_DEPTH,
-                _ => 0.0,
-            }
+            let (oblique, aligned) = match beside(side, step) {
+                Err(NoHeight::Low) if (1..=GAP).all(&mut is_free) => {
+                    (2.0 * EDGE_DEPTH, part(side, step) + 1.0 + part(axis, out))
+                }
+                Err(NoHeight::Low) => (EDGE_DEPTH, part(side, step)),
+                _ => return 0.0,
+            };
+            let straight = straight(side);
+            straight * aligned + (1.0 - straight) * oblique
         };
         let longer = |side: usize| match (beside(side, -1), beside(side, 1)) {
             (Ok(before), Ok(after)) => {
@@ -253,13 +275,18 @@ impl Twin {
                     axis,
                     out,
                     top,
-                    area: (length + longer(first) + longer(second)).max(0.0),
+                    area: {
+                        let straight = straight(first).max(straight(second));
+                        let own = straight + (1.0 - straight) * length;
+                        (own + longer(first) + longer(second)).max(0.0)
+                    },
                     open,
                     above,
                     u,
                     friction,
                     share: share(friction, nu),
                     force: self.balanced_force(cell),
+                    kept: 1.0 - velocity.iter().map(|v| v.abs()).sum::<f64>().min(0.9),
                 });
             }
         }
@@ -304,7 +331,8 @@ impl Twin {
         let solid = self.solid_in(cell);
         let found = self.sloping(cell).filter(|_| solid.fraction >= FULL);
         found.map_or([0.0; Q], |face| {
-            face.gain(face.slip(solid.velocity, leaving), balance)
+            let density = self.f[face.sample().0].iter().sum();
+            face.gain(face.slip(solid.velocity, leaving, density), balance)
         })
     }
 
@@ -314,7 +342,9 @@ impl Twin {
         balance(full.filter_map(|cell| {
             let face = self.sloping(cell)?;
             let leaving = self.collided_in(cell, nu_t[cell]);
-            Some(face.given(face.slip(self.solid_in(cell).velocity, &leaving)))
+            let density = self.f[face.sample().0].iter().sum();
+            let m = face.slip(self.solid_in(cell).velocity, &leaving, density);
+            Some((face.given(m), face.still().is_some()))
         }))
     }
 
@@ -331,10 +361,10 @@ impl Twin {
     }
 }
 
-/// The sum of what cells give off over that of its amounts.
-pub(super) fn balance(given: impl Iterator<Item = f64>) -> f64 {
-    let [sum, amount] = given.fold([0.0; 2], |[sum, amount], one| {
-        [sum + one, amount + one.abs()]
+/// The sum of what cells give off over that of the amounts of the cells that can balance it.
+pub(super) fn balance(given: impl Iterator<Item = (f64, bool)>) -> f64 {
+    let [sum, amount] = given.fold([0.0; 2], |[sum, amount], (one, takes)| {
+        [sum + one, amount + if takes { one.abs() } else { 0.0 }]
     });
     if amount > 0.0 { sum / amount } else { 0.0 }
 }
@@ -363,9 +393,9 @@ impl Sloping {
 
     /// What the populations that leave a full cell gain by its m.
     pub(super) fn gain(&self, m: [f64; 3], balance: f64) -> [f64; Q] {
-        let all: f64 = self.open.iter().map(|&q| W[q]).sum();
-        let leak = balance * self.given(m).abs() / all;
-        let gain = |q: usize| W[q] * (dot(c(q), m) - leak);
+        let (still, sum) = self.still().unwrap_or(([0.0; 3], f64::INFINITY));
+        let leak = balance * self.given(m).abs() / sum;
+        let gain = |q: usize| W[q] * (dot(c(q), m) - leak * (1.0 - dot(c(q), still)));
         std::array::from_fn(|q| if self.open.contains(&q) { gain(q) } else { 0.0 })
     }
 
@@ -374,49 +404,84 @@ impl Sloping {
         self.open.iter().map(|&q| W[q] * dot(c(q), m)).sum()
     }
 
-    /// m of a full cell of a solid with this velocity, times the share of the law.
-    pub(super) fn slip(&self, velocity: [f64; 3], leaving: &[f64; Q]) -> [f64; 3] {
+    /// The cell whose velocity the law reads, and its distance from the face.
+    pub(super) fn sample(&self) -> (usize, f64) {
+        *self.above.last().expect("the column has cells")
+    }
+
+    /// Two directions along the face.
+    fn along(&self) -> [[f64; 3]; 2] {
+        let n = self.normal;
+        let helper = if n[0].abs() > 0.6 {
+            [0.0, 1.0, 0.0]
+        } else {
+            [1.0, 0.0, 0.0]
+        };
+        let first = cross(n, helper);
+        let first = first.map(|v| v / norm(first));
+        [first, cross(n, first)]
+    }
+
+    /// Σ over the open directions.
+    fn over_open(&self, of: &dyn Fn(usize) -> f64) -> f64 {
+        self.open.iter().map(|&q| of(q)).sum()
+    }
+
+    /// The m for which the part of Σ w c c·m along the face is this.
+    fn solution(&self, wanted: [f64; 2]) -> [f64; 3] {
+        let along = self.along();
+        let over = |q: usize, t: usize| dot(c(q), along[t]);
+        let element = |s: usize, t: usize| self.over_open(&|q| W[q] * over(q, s) * over(q, t));
+        let found = solved([element(0, 0), element(0, 1), element(1, 1)], wanted);
+        [0, 1, 2].map(|i| found[0] * along[0][i] + found[1] * along[1][i])
+    }
+
+    /// The vector s along the face for which w (1 − c·s) has no momentum along it, 0 if the solid moves, and the sum of that; none
+    /// where it is small.
+    pub(super) fn still(&self) -> Option<([f64; 3], f64)> {
+        let along = self.along();
+        let outward = |t: usize| self.over_open(&|q| W[q] * dot(c(q), along[t]));
+        let still = match self.kept > KEPT {
+            true => self.solution([outward(0), outward(1)]),
+            false => [0.0; 3],
+        };
+        let all = self.over_open(&|q| W[q]);
+        let sum = all - self.over_open(&|q| W[q] * dot(c(q), still));
+        (sum > 0.5 * all).then_some((still, sum))
+    }
+
+    /// m of a full cell of a solid with this velocity, times the share of the law. `density`: its excess where the law reads the
+    /// velocity.
+    pub(super) fn slip(&self, velocity: [f64; 3], leaving: &[f64; Q], density: f64) -> [f64; 3] {
         if self.share == 0.0 || self.open.is_empty() {
             return [0.0; 3];
         }
-        let along = {
-            let n = self.normal;
-            let helper = if n[0].abs() > 0.6 {
-                [0.0, 1.0, 0.0]
-            } else {
-                [1.0, 0.0, 0.0]
-            };
-            let first = cross(n, helper);
-            let first = first.map(|v| v / norm(first));
-            [first, cross(n, first)]
-        };
+        let along = self.along();
         let area = if self.top { self.area } else { 0.0 };
         let stress = area * self.friction.powi(2) / norm(self.u).max(1e-30);
-        let sum = |of: &dyn Fn(usize) -> f64| self.open.iter().map(|&q| of(q)).sum::<f64>();
         let relative =
             |q: usize| leaving[q] - 3.0 * W[q] * dot(c(q), velocity) - at_rest(q, self.force);
         let over = |q: usize, t: usize| dot(c(q), along[t]);
-        // The pressure: f = w (excess + c·slip), where the differences to the means over the open directions give the slip.
-        let all = sum(&|q| W[q]);
-        let mean_of = |of: &dyn Fn(usize) -> f64| sum(of) / all;
-        let mean = [0, 1].map(|t| mean_of(&|q| W[q] * over(q, t)));
-        let mean_excess = mean_of(&relative);
-        let apart = |q: usize, t: usize| over(q, t) - mean[t];
-        let covariance = |s: usize, t: usize| sum(&|q| W[q] * apart(q, s) * apart(q, t));
-        let slip = solved(
-            [covariance(0, 0), covariance(0, 1), covariance(1, 1)],
-            [0, 1].map(|t| sum(&|q| relative(q) * apart(q, t))),
-        );
-        // What a full cell of a solid in motion has kept of the deviation from the equilibrium of the solid.
-        let kept = 1.0 - velocity.iter().map(|v| v.abs()).sum::<f64>().min(0.9);
-        let excess = mean_excess - mean[0] * slip[0] - mean[1] * slip[1];
+        let excess = if self.kept > KEPT {
+            density - 3.0 * self.sample().1 * dot(self.force, self.normal)
+        } else {
+            // f = w (excess + c·slip), where the differences to the means over the open directions give the slip.
+            let all = self.over_open(&|q| W[q]);
+            let mean = [0, 1].map(|t| self.over_open(&|q| W[q] * over(q, t)) / all);
+            let apart = |q: usize, t: usize| over(q, t) - mean[t];
+            let covariance =
+                |s: usize, t: usize| self.over_open(&|q| W[q] * apart(q, s) * apart(q, t));
+            let slip = solved(
+                [covariance(0, 0), covariance(0, 1), covariance(1, 1)],
+                [0, 1].map(|t| self.over_open(&|q| relative(q) * apart(q, t))),
+            );
+            self.over_open(&relative) / all - mean[0] * slip[0] - mean[1] * slip[1]
+        };
         let wanted = [0, 1].map(|t| {
-            let arrived = sum(&|q| (relative(q) - W[q] * excess) * over(q, t));
-            -(1.0 + 1.0 / kept) * arrived - stress * dot(self.u, along[t])
+            let arrived = self.over_open(&|q| (relative(q) - W[q] * excess) * over(q, t));
+            -(1.0 + 1.0 / self.kept) * arrived - stress * dot(self.u, along[t])
         });
-        let element = |s: usize, t: usize| sum(&|q| W[q] * over(q, s) * over(q, t));
-        let found = solved([element(0, 0), element(0, 1), element(1, 1)], wanted);
-        let m = [0, 1, 2].map(|i| found[0] * along[0][i] + found[1] * along[1][i]);
+        let m = self.solution(wanted);
         let limit = (12.0 * norm(self.u) / norm(m).max(1e-30)).min(1.0);
         m.map(|m| m * self.share * limit)
     }

@@ -127,11 +127,14 @@ impl Twin {
             for &(q, (other, reflected)) in &returned {
                 leaving[q] = self.f[other][reflected];
             }
-            let slip = face.slip([0.0; 3], &leaving);
+            let density = self.previous_density[face.sample().0];
+            let slip = face.slip([0.0; 3], &leaving, density);
             (face, returned, slip)
         });
         let faces: Vec<_> = faces.collect();
-        let balance = balance(faces.iter().map(|(face, _, slip)| face.given(*slip)));
+        let given =
+            |(face, _, slip): &(Sloping, _, [f64; 3])| (face.given(*slip), face.still().is_some());
+        let balance = balance(faces.iter().map(given));
         for (face, returned, slip) in faces {
             let gain = face.gain(slip, balance);
             for (q, (other, reflected)) in returned {

@@ -84,7 +84,8 @@ fn slip_at_slope(at: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f
     // Without the pressure, which is that where the law has read the velocity.
     var excess = 0.0;
     if (kept > LEAST_KEPT) {
-        excess = excess_density(cell_of_scalar(face.sample)) - 2.0 * face.distance * dot(at_rest, face.normal);
+        let cells = f32(cells_to_sample(face.slope)) * select(-1.0, 1.0, (face.slope & 1u) == 1u);
+        excess = excess_density(cell_of_scalar(face.sample)) - 2.0 * cells * at_rest[(face.slope & 7u) / 2u];
     } else {
         // In cells of a solid that moves there is noise: least squares of f = w (excess + c.slip), slip along the face.
         let mean = outward / all;

@@ -463,7 +463,7 @@ impl Sloping {
             |q: usize| leaving[q] - 3.0 * W[q] * dot(c(q), velocity) - at_rest(q, self.force);
         let over = |q: usize, t: usize| dot(c(q), along[t]);
         let excess = if self.kept > KEPT {
-            density - 3.0 * self.sample().1 * dot(self.force, self.normal)
+            density - 3.0 * f64::from(self.out) * self.above.len() as f64 * self.force[self.axis]
         } else {
             // f = w (excess + c·slip), where the differences to the means over the open directions give the slip.
             let all = self.over_open(&|q| W[q]);

@@ -7,8 +7,8 @@
 // fluid at rest.
 // needs sloping_cell, incoming, weights, balanced_cell_force, $mirror
 
-// Sums of what the cells at such faces give off, and of its amounts: each in units of 2^-24 by the multiples of 1024 and the rest, so
-// that the order does not matter.
+// Sums of what the cells at such faces give off, and of its amounts: each in units of 2^-28 by the multiples of 4096 and the rest, so
+// that the order does not matter. A million cells fit.
 var<workgroup> slip_sums: array<atomic<i32>, 4>;
 
 fn clear_slip_sums(local: u32) {
@@ -20,18 +20,18 @@ fn clear_slip_sums(local: u32) {
 
 fn add_to_slip_sums(face: SlopingCell) {
     let given = face.given;
-    let units = i32(round(clamp(given, -1.0, 1.0) * 16777216.0));
-    atomicAdd(&slip_sums[0u], units >> 10u);
-    atomicAdd(&slip_sums[1u], units & 1023);
+    let units = i32(round(clamp(given, -1.0, 1.0) * 268435456.0));
+    atomicAdd(&slip_sums[0u], units >> 12u);
+    atomicAdd(&slip_sums[1u], units & 4095);
     let takes = select(0, abs(units), face.per_sum > 0.0);
-    atomicAdd(&slip_sums[2u], takes >> 10u);
-    atomicAdd(&slip_sums[3u], takes & 1023);
+    atomicAdd(&slip_sums[2u], takes >> 12u);
+    atomicAdd(&slip_sums[3u], takes & 4095);
 }
 
 // What is given off over its amount, from these sums over all cells.
 fn slip_balance(given: i32, rest: i32, amount: i32, rest_of_amount: i32) -> f32 {
-    let sum = 1024.0 * f32(given) + f32(rest);
-    return sum / max(1024.0 * f32(amount) + f32(rest_of_amount), 1.0);
+    let sum = 4096.0 * f32(given) + f32(rest);
+    return sum / max(4096.0 * f32(amount) + f32(rest_of_amount), 1.0);
 }
 
 // Sum of the weights of some directions, one bit each.

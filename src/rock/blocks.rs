@@ -9,8 +9,9 @@ use super::{
     deforming::{DeformingBlocks, pose},
     energy::{BodyStates, WorkSums},
     films::Films,
-    narrowphase::{Joints, ResolverPool},
+    narrowphase::Joints,
     period::Periods,
+    resolver_pool::ResolverPool,
     step::{StepTimes, is_time},
     time_step,
 };

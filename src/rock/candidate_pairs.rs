@@ -379,15 +379,18 @@ pub(super) struct PlacedParts {
     /// Block of each part.
     pub block: Vec<u32>,
     pub placed: Vec<Placed>,
+    /// Whether there are spheres among them.
+    pub has_spheres: bool,
 }
 
 impl PlacedParts {
     pub fn new(bodies: &[Body]) -> Self {
         let mut parts = Self::default();
         for (i, body) in bodies.iter().enumerate() {
-            for _ in body.parts.clone() {
+            for part in body.shape.parts() {
                 parts.block.push(i as u32);
                 parts.placed.push(Placed::default());
+                parts.has_spheres |= matches!(part.form, Form::Sphere { .. });
             }
         }
         parts

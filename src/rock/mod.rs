@@ -48,6 +48,7 @@ mod films;
 mod narrowphase;
 mod period;
 mod relax;
+mod resolver_pool;
 mod seams;
 mod setup;
 mod snapshot;

@@ -65,7 +65,7 @@ impl Seams {
     /// The seams at which spheres stand.
     pub fn of(narrowphase: &Narrowphase<'_>, pairs: &[CandidatePair]) -> Self {
         let mut seams = Self::default();
-        if !narrowphase.parts.placed.iter().any(Placed::is_sphere) {
+        if !narrowphase.parts.has_spheres {
             return seams;
         }
         let touches = pairs.iter().enumerate();

@@ -235,17 +235,20 @@ fn faces_on_others(setup: &Setup, blocks: &Blocks, block: usize, known: &[usize]
         }
     }
     // Terrain has many small pieces: they count together.
-    let same = |a: &Touching, b: &Touching| a.normal.dot(b.normal) > SAME;
-    let whole = |touch: &Touching| {
-        let same = found.iter().filter(|other| same(touch, other));
-        same.map(|other| other.area).sum::<f64>()
-    };
-    let large: Vec<bool> = found
-        .iter()
-        .map(|touch| whole(touch) > AREA * radius * radius)
-        .collect();
-    let mut large = large.into_iter();
-    found.retain(|_| large.next().unwrap_or_default());
+    let mut areas: Vec<(DVec3, f64)> = Vec::new();
+    for touch in &found {
+        let same = |(normal, _): &&mut (DVec3, f64)| normal.dot(touch.normal) > SAME;
+        match areas.iter_mut().find(same) {
+            Some((_, area)) => *area += touch.area,
+            None => areas.push((touch.normal, touch.area)),
+        }
+    }
+    areas.retain(|(_, area)| *area > AREA * radius * radius);
+    found.retain(|touch| {
+        areas
+            .iter()
+            .any(|(normal, _)| normal.dot(touch.normal) > SAME)
+    });
     found
 }
 

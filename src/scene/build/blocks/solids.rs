@@ -8,12 +8,9 @@ use crate::{
     Error, Result,
     geometry::{HalfSpace, Polyhedron, Shape},
     rock::Block,
-    scene::{self, Boundary, Scene, Solid},
+    scene::{self, Boundary, Particles, Scene, Solid},
 };
 use glam::DVec3;
-
-/// Layers of particles below the surface of a solid, at most.
-const PARTICLE_LAYERS: f64 = 4.0;
 
 /// The solid `index` as a fixed block.
 pub(super) fn block(scene: &Scene, index: usize, solid: &Solid) -> Result<Block> {
@@ -58,9 +55,10 @@ fn shape(scene: &Scene, shape: &scene::Shape, key: &str) -> Result<(Shape, DVec3
                 true => (domain.origin, domain.end()),
                 false => ([f64::NEG_INFINITY; 3], [f64::INFINITY; 3]),
             };
-            // The particles of a solid lie up to four layers below its surface.
+            // The particles of a solid fill the support of the kernel.
+            let layers = |particles: &Particles| (2.0 * particles.smoothing).ceil() + 1.0;
             let particles = scene.particles.as_ref();
-            let depth = particles.map_or(0.0, |particles| PARTICLE_LAYERS * particles.spacing);
+            let depth = particles.map_or(0.0, |it| layers(it) * it.spacing);
             let bottom = match domain.is_given() {
                 true => min[2] - depth,
                 false => f64::INFINITY,

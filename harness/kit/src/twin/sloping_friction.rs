@@ -39,8 +39,10 @@ pub(super) struct Sloping {
     pub area: f64,
     /// Directions to cells that are not full.
     pub open: Vec<usize>,
-    /// Cells of the column above with their distances from the face; the law reads the velocity of the last one.
+    /// Cells of the column above with their distances from the face.
     pub above: Vec<(usize, f64)>,
+    /// The last of these, whose velocity the law reads.
+    pub sample: usize,
     /// Tangential velocity there relative to the block, and the friction velocity.
     pub u: [f64; 3],
     pub friction: f64,
@@ -282,6 +284,7 @@ impl Twin {
                     },
                     open,
                     above,
+                    sample: at,
                     u,
                     friction,
                     share: share(friction, nu),
@@ -331,7 +334,7 @@ impl Twin {
         let solid = self.solid_in(cell);
         let found = self.sloping(cell).filter(|_| solid.fraction >= FULL);
         found.map_or([0.0; Q], |face| {
-            let density = self.f[face.sample().0].iter().sum();
+            let density = self.f[face.sample].iter().sum();
             face.gain(face.slip(solid.velocity, leaving, density), balance)
         })
     }
@@ -342,7 +345,7 @@ impl Twin {
         balance(full.filter_map(|cell| {
             let face = self.sloping(cell)?;
             let leaving = self.collided_in(cell, nu_t[cell]);
-            let density = self.f[face.sample().0].iter().sum();
+            let density = self.f[face.sample].iter().sum();
             let m = face.slip(self.solid_in(cell).velocity, &leaving, density);
             Some((face.given(m), face.still().is_some()))
         }))
@@ -402,11 +405,6 @@ impl Sloping {
     /// What a full cell gives off by its m, without the balance.
     pub(super) fn given(&self, m: [f64; 3]) -> f64 {
         self.open.iter().map(|&q| W[q] * dot(c(q), m)).sum()
-    }
-
-    /// The cell whose velocity the law reads, and its distance from the face.
-    pub(super) fn sample(&self) -> (usize, f64) {
-        *self.above.last().expect("the column has cells")
     }
 
     /// Two directions along the face.

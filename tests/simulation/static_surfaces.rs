@@ -166,6 +166,62 @@ fn a_block_slides_over_terrain_as_over_a_plane() {
     assert!(pose.deformation_rate.abs_diff_eq(glam::DMat3::ZERO, 1e-3));
 }
 
+/// Terrain of small triangles holds water as a box does, and no block fits below its surface.
+#[test]
+fn terrain_is_solid_down_to_the_domain() {
+    let dir = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("solid_terrain");
+    fs::create_dir_all(&dir).unwrap();
+    let nodes =
+        (0..9).flat_map(|j| (0..9).map(move |i| [i, j].map(|i| 0.05 * f64::from(i) - 0.05)));
+    let survey: String = nodes.map(|[x, y]| format!("{x} {y} 0.2\n")).collect();
+    fs::write(dir.join("floor.xyz"), survey).unwrap();
+    let rig = Rig::new();
+    let read = |floor: &str, more: &str| {
+        let keys = format!(
+            r#"
+            domain = {{ size = [0.3, 0.3, 0.45] }}
+            fluid.acceleration = [0, 0, -9.81]
+            particles.spacing = 0.025
+            run.duration = 0.05
+            boundaries = {{ x_min = {{ kind = "wall" }}, x_max = {{ kind = "wall" }}, y_min = {{ kind = "wall" }}, y_max = {{ kind = "wall" }}, z_min = {{ kind = "wall" }}, z_max = {{ kind = "open" }} }}
+            [[materials]]
+            name = "rock"
+            density = 2600
+            normal_stiffness = 1e7
+            friction = 30
+            [[water]]
+            kind = "box"
+            size = [0.3, 0.3, 0.35]
+            position = [0.15, 0.15, 0.175]
+            [[solids]]
+            {floor}
+            {more}
+            "#
+        );
+        Scene::from_toml(&keys, &dir, "terrain.toml").unwrap()
+    };
+    let terrain = "kind = \"terrain\"\nfile = \"floor.xyz\"";
+    let still = |floor: &str| {
+        let scene = read(floor, "");
+        let mut simulation = rig.simulation(&scene).unwrap();
+        let steps = scene.run.count(simulation.time_step());
+        rig.wait(simulation.advance(steps)).unwrap();
+        rig.wait(simulation.water()).unwrap()
+    };
+    let solid = "kind = \"box\"\nmin = [-0.1, -0.1, -0.2]\nmax = [0.4, 0.4, 0.2]";
+    let [found, expected] = [terrain, solid].map(still);
+    assert_eq!(found.positions.len(), expected.positions.len());
+    let lowest = found.positions.iter().map(|at| at.z).fold(1.0, f64::min);
+    let speeds = found.velocities.iter().map(|v| v.length());
+    let fastest = speeds.fold(0.0, f32::max);
+    println!("lowest at {lowest} m, up to {fastest} m/s");
+    assert!(lowest > 0.2 && fastest < 0.3, "{lowest} m, {fastest} m/s");
+    let below =
+        "[[blocks]]\nkind = \"box\"\nsize = [0.05, 0.05, 0.05]\nposition = [0.15, 0.15, 0.04]";
+    let refused = rig.simulation(&read(terrain, below)).err().unwrap();
+    assert!(refused.to_string().contains("overlap"), "{refused}");
+}
+
 /// The steps of the staircase under a sloping face take in and give off fluid as it slides over them, as much at any pressure.
 #[test]
 fn friction_at_sloping_faces_conserves_mass() {
@@ -269,6 +325,42 @@ fn a_stream_along_a_slope_has_the_friction_of_the_law() {
         println!("1 : {run}: {force} N, {by_law} N by the law");
         assert_near(force / by_law, 1.0, limit);
     }
+}
+
+/// Next to a cell that is almost full the model acts as elsewhere.
+#[test]
+fn an_exact_slope_that_almost_fills_cells_keeps_the_model() {
+    let rig = Rig::new();
+    let friction = |below_corner: f64| {
+        let keys = format!(
+            r#"
+            domain = {{ size = [0.8, 0.1, 1.6], cell = 0.05 }}
+            fluid.viscosity = 1e-6
+            numerics = {{ velocity_scale = 1.4, mach = 0.06, eddy_viscosity = "wale", wall_model = "werner_wengle" }}
+            initial.velocity = [0, 1, 0]
+            run.steps = 400
+            boundaries = {{ x_min = {{ kind = "free_slip" }}, x_max = {{ kind = "free_slip" }}, z_min = {{ kind = "wall" }}, z_max = {{ kind = "free_slip" }} }}
+            [[solids]]
+            kind = "half_space"
+            point = [0, 0, {}]
+            normal = [-1, 0, 2]
+            surface = "exact"
+            "#,
+            0.2 - 0.05 * below_corner
+        );
+        let mut simulation = rig.simulation(&kit::scene::read(&keys).unwrap()).unwrap();
+        let mut momentum = |steps: u64| {
+            rig.wait(simulation.advance(steps)).unwrap();
+            rig.wait(simulation.totals()).unwrap().momentum[1]
+        };
+        let [before, after] = [200, 200].map(&mut momentum);
+        before - after
+    };
+    // A cell that the plane cuts at a corner lacks the square of this depth in cells.
+    let [usual, almost_full] = [0.2, 0.014].map(friction);
+    println!("{usual} and {almost_full} N s");
+    assert!(usual > 0.0);
+    assert_near(almost_full / usual, 1.0, 0.1);
 }
 
 /// Noise in full cells that move brings fluid to the edges, which have no slip: oblique rods in motion have more friction.

@@ -66,6 +66,15 @@ fn cell_of_scalar(n: u32) -> vec3<u32> {
     return vec3(element % NX, y, z);
 }
 
+// The cell at distance `n` through a face, also across a periodic face.
+fn through(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
+    let size = vec3(CELLS_X, CELLS_Y, CELLS_Z);
+    let axis = face / 2u;
+    var other = cell;
+    other[axis] = (cell[axis] + select(size[axis] - n, n, face % 2u == 1u)) % size[axis];
+    return other;
+}
+
 fn opposite(q: u32) -> u32 {
     return select(((q - 1u) ^ 1u) + 1u, 0u, q == 0u);
 }

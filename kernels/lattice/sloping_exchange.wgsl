@@ -81,11 +81,18 @@ fn slip_at_slope(at: SlopingCell, cell: vec3<u32>, velocity: vec3<f32>, share: f
     leaving -= 3.0 * (weights * velocity);
     // Of the deviation from the equilibrium of a solid that moves, full cells return a part only: see damping_in_full_cells.
     let kept = 1.0 - min(abs(velocity.x) + abs(velocity.y) + abs(velocity.z), 0.9);
-    // Without the pressure, which is that where the law has read the velocity.
+    // Without the pressure, which is that of the column up to where the law has read the velocity.
     var excess = 0.0;
     if (kept > LEAST_KEPT) {
-        let cells = f32(cells_to_sample(face.slope)) * select(-1.0, 1.0, (face.slope & 1u) == 1u);
-        excess = excess_density(cell_of_scalar(face.sample)) - 2.0 * cells * at_rest[(face.slope & 7u) / 2u];
+        // The mean over the column damps steady waves of a few cells that the steps send out.
+        let outer = face.slope & 7u;
+        let sample = cell_of_scalar(face.sample);
+        for (var k = 0u; k < PRESSURE_CELLS; k++) {
+            excess += excess_density(through(sample, outer ^ 1u, k));
+        }
+        let cells = f32(cells_to_sample(face.slope)) - 0.5 * f32(PRESSURE_CELLS - 1u);
+        let height = cells * select(-1.0, 1.0, (outer & 1u) == 1u);
+        excess = excess / f32(PRESSURE_CELLS) - 2.0 * height * at_rest[outer / 2u];
     } else {
         // In cells of a solid that moves there is noise: least squares of f = w (excess + c.slip), slip along the face.
         let mean = outward / all;
@@ -154,6 +161,9 @@ fn tangential_solution(matrix: mat3x3<f32>, n: vec3<f32>, b: vec3<f32>) -> vec3<
     let solved = (determinant * adjugate + s * product) / squares;
     return solved.x * first + solved.y * second;
 }
+
+// Cells whose mean density is the pressure: the one whose velocity the law reads, and those below it.
+const PRESSURE_CELLS = 4u;
 
 // Part of the deviation that a solid keeps below which it moves: at 0.2 % of the lattice speed.
 const LEAST_KEPT = 0.998;

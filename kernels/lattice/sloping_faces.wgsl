@@ -159,7 +159,9 @@ fn has_fluid(cell: vec3<u32>, face: u32, height: f32, after: u32, cells: u32) ->
     return (flags_of(at) & SOLID) == 0u;
 }
 
-fn largest_axis(size: vec3<f32>) -> u32 {
+// Axis of the largest component; of equal ones that of the first, whatever rounding makes of them.
+fn largest_axis(components: vec3<f32>) -> u32 {
+    let size = abs(components) * vec3(1.0002, 1.0001, 1.0);
     return select(select(2u, 1u, size.y >= size.z), 0u, size.x >= size.y && size.x >= size.z);
 }
 
@@ -187,15 +189,21 @@ fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
     if (found.open == 0u || length(less) < 1e-3) {
         return found;
     }
-    var axis = largest_axis(abs(less));
-    var height = column_height(cell, face_towards(less, axis));
-    var others = abs(less);
-    others[axis] = 0.0;
+    let first = largest_axis(less);
+    var others = less;
+    others[first] = 0.0;
     let second = largest_axis(others);
-    if (!is_height(height) && others[second] > DIAGONAL * abs(less[axis])) {
-        axis = second;
-        height = column_height(cell, face_towards(less, axis));
+    let axes = select(1u, 2u, abs(less[second]) > DIAGONAL * abs(less[first]));
+    for (var n = 0u; n < axes && found.slope == NO_SLOPE; n++) {
+        found = face_along(found, cell, here.fraction, less, select(first, second, n == 1u));
     }
+    return found;
+}
+
+// The same from the column along an axis, of a face with open directions that has less solid towards `less`.
+fn face_along(at: SlopingCell, cell: vec3<u32>, own_fraction: f32, less: vec3<f32>, axis: u32) -> SlopingCell {
+    var found = at;
+    let height = column_height(cell, face_towards(less, axis));
     let up = less[axis] > 0.0;
     let face = face_towards(less, axis);
     // No face is nearer than this along the axis.
@@ -215,12 +223,12 @@ fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
     }
     found.normal = normalize(normal);
     let rise = abs(found.normal[axis]);
-    let top = here.fraction >= FULL && fraction_at(through(cell, face, 1u)) < FULL;
+    let top = own_fraction >= FULL && fraction_at(through(cell, face, 1u)) < FULL;
     let cells = u32(ceil(SAMPLE_DISTANCE / rise + height));
     if (cells > REACH || !has_fluid(cell, face, height, nearest, cells)) {
         return found;
     }
-    found.open = select(0u, found.open, here.fraction >= FULL);
+    found.open = select(0u, found.open, own_fraction >= FULL);
     let own = mix(1.0 / rise, 1.0, max(profile_x.straight, profile_y.straight));
     found.area = select(0.0, max(own + profile_x.longer + profile_y.longer, 0.0), top);
     found.slope = face | select(0u, SLOPE_TOP, top) | (cells << SLOPE_CELLS) | (mirrors_of(cell) << SLOPE_FREE_SLIP);

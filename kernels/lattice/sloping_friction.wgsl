@@ -50,7 +50,9 @@ fn apply_at_slope(n: u32, here: OuterCell) {
             write_psm(PLANE_STRESS + a, here.solid.slot, here.solid.place, law.normal[a]);
         }
     }
-    set_viscosity_above(law, here.cell, law.friction * share);
+    if (share > 0.0) {
+        set_viscosity_above(law, here.cell, law.friction * share);
+    }
 }
 
 // Runs at the end of the step, as clear_viscosity does.
@@ -65,11 +67,19 @@ fn clear_above_slopes(
     }
     let count = atomicLoad(&outer_cells.slopes);
     for (var n = invocation(group, groups, local); n < count; n += 64u * groups.x * groups.y) {
-        set_viscosity_above(slopes[n], outer_cell(slopes[n].outer).cell, 0.0);
+        clear_viscosity_above(slopes[n], outer_cell(slopes[n].outer).cell);
     }
 }
 
-// Sets the eddy viscosity of the fluid above the uppermost full cell of a column: that of the mixing length, or 0.
+fn clear_viscosity_above(face: SlopingCell, cell: vec3<u32>) {
+    let cells = select(0u, cells_to_sample(face.slope), (face.slope & SLOPE_TOP) != 0u);
+    for (var k = 1u; k <= cells; k++) {
+        atomicStore(&near_wall_viscosity[scalar_of(through(cell, face.slope & 7u, k))], 0u);
+    }
+}
+
+// Sets the eddy viscosity of the fluid above the uppermost full cell of a column to that of the mixing length, where that of no
+// other face is larger.
 fn set_viscosity_above(face: SlopingCell, cell: vec3<u32>, friction: f32) {
     if ((face.slope & SLOPE_TOP) == 0u) {
         return;
@@ -81,9 +91,7 @@ fn set_viscosity_above(face: SlopingCell, cell: vec3<u32>, friction: f32) {
     for (var k = 1u; k <= cells; k++) {
         at = through(at, nearest, 1u);
         let y = face.distance - f32(cells - k) * rise;
-        if (friction == 0.0) {
-            atomicStore(&near_wall_viscosity[scalar_of(at)], 0u);
-        } else if (y > 1.0 || (y > 0.0 && fraction_at(at) == 0.0)) {
+        if (y > 1.0 || (y > 0.0 && fraction_at(at) == 0.0)) {
             atomicMax(&near_wall_viscosity[scalar_of(at)], bitcast<u32>(KARMAN * y * taper(y) * friction));
         }
     }

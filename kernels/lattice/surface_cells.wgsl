@@ -73,15 +73,6 @@ fn beside(cell: vec3<u32>, face: u32) -> vec3<u32> {
     return select(through(cell, face, 1u), cell, (mirrors_of(cell) & (1u << face)) != 0u);
 }
 
-// The cell at distance `n` through a face, also across a periodic face.
-fn through(cell: vec3<u32>, face: u32, n: u32) -> vec3<u32> {
-    let size = vec3(CELLS_X, CELLS_Y, CELLS_Z);
-    let axis = face / 2u;
-    var other = cell;
-    other[axis] = (cell[axis] + select(size[axis] - n, n, face % 2u == 1u)) % size[axis];
-    return other;
-}
-
 // Number of a cell of the bricks that blocks reach, slot by slot.
 fn number_of(slot: u32, place: u32) -> u32 {
     return slot * BRICK_X * BRICK_Y * BRICK_Z * LANES_OF_ELEMENT + place;

@@ -16,6 +16,8 @@ const SAMPLE_DISTANCE: f64 = 4.0;
 const NEAR: f64 = 4.5;
 /// Ratio of the two largest components towards less solid from which a column may run along the second.
 const DIAGONAL: f64 = 0.9;
+/// Of equal components that of the first axis is the largest, whatever rounding makes of them.
+const EQUAL_AXES: DVec3 = DVec3::new(1.0002, 1.0001, 1.0);
 /// Cosine of the slope, 1 : 8, below which the cells that a face cuts have an eddy viscosity, as in front of a face along the grid.
 /// Without it they take no momentum from the flow above, and the stress drives them backwards.
 const ALONG_GRID: f32 = 0.992;
@@ -120,7 +122,6 @@ impl Solids<'_> {
 
     /// The face at a cell that the surface cuts, or that lies full under it.
     fn face(&self, cell: [u32; 3]) -> Option<Found> {
-        let own = self.fraction(cell);
         let mut open = 0;
         // Towards less solid, with the weights of Youngs 1984.
         let mut less = DVec3::ZERO;
@@ -140,14 +141,20 @@ impl Solids<'_> {
         if open == 0 || less.length() < LEAST {
             return None;
         }
+        let size = less.abs() * EQUAL_AXES;
         let mut axes = [0, 1, 2];
-        axes.sort_by(|&a, &b| less[b].abs().total_cmp(&less[a].abs()));
+        axes.sort_by(|&a, &b| size[b].total_cmp(&size[a]));
         let [first, second, _] = axes;
-        let out_along = |axis: usize| if less[axis] > 0.0 { 1 } else { -1 };
-        let column = |axis| Some((axis, self.column(cell, axis, out_along(axis)).height()?));
         let other = || (less[second].abs() > DIAGONAL * less[first].abs()).then_some(second);
-        let (axis, height) = column(first).or_else(|| column(other()?))?;
-        let out = out_along(axis);
+        let along = |axis| self.face_along(cell, axis, less, open);
+        along(first).or_else(|| along(other()?))
+    }
+
+    /// The face from the column of a cell along an axis, with less solid towards `less` and these open directions.
+    fn face_along(&self, cell: [u32; 3], axis: usize, less: DVec3, open: u32) -> Option<Found> {
+        let own = self.fraction(cell);
+        let out = if less[axis] > 0.0 { 1 } else { -1 };
+        let height = self.column(cell, axis, out).height()?;
         // At edges, the direction towards less solid.
         let mut normal = less;
         let [a, b] = [(axis + 1) % 3, (axis + 2) % 3];

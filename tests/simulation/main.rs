@@ -3,6 +3,7 @@
 mod flow_control;
 mod hydrostatic_walls;
 mod levels;
+mod oblique_plates;
 mod pressure_sensors;
 mod probes;
 mod sph_restart;

@@ -39,10 +39,8 @@ pub(super) struct Sloping {
     pub area: f64,
     /// Directions to cells that are not full.
     pub open: Vec<usize>,
-    /// Cells of the column above with their distances from the face.
+    /// Cells of the column above with their distances from the face; the law reads the velocity of the last one.
     pub above: Vec<(usize, f64)>,
-    /// The last of these, whose velocity the law reads.
-    pub sample: usize,
     /// Tangential velocity there relative to the block, and the friction velocity.
     pub u: [f64; 3],
     pub friction: f64,
@@ -167,8 +165,6 @@ impl Twin {
         is_open: &dyn Fn(usize) -> bool,
         (velocity, roughness): ([f64; 3], f64),
     ) -> Option<Sloping> {
-        let model = self.wall_model.as_ref()?;
-        let here = (columns.fraction)(cell);
         let mut less = [0.0; 3];
         let mut open = Vec::new();
         for q in 1..Q {
@@ -184,13 +180,40 @@ impl Twin {
         if open.is_empty() || norm(less) < 1e-4 {
             return None;
         }
+        // Of equal components that of the first axis.
+        let size = [0, 1, 2].map(|a| less[a].abs() * (1.0002 - 0.0001 * a as f64));
         let mut axes = [0, 1, 2];
-        axes.sort_by(|a, b| less[*b].abs().total_cmp(&less[*a].abs()));
-        let out_along = |axis: usize| if less[axis] > 0.0 { 1 } else { -1 };
-        let column = |axis| Some((axis, heights.height(cell, axis, out_along(axis)).ok()?));
-        let other = || (less[axes[1]].abs() > DIAGONAL * less[axes[0]].abs()).then_some(axes[1]);
-        let (axis, height) = column(axes[0]).or_else(|| column(other()?))?;
-        let out = out_along(axis);
+        axes.sort_by(|a, b| size[*b].total_cmp(&size[*a]));
+        let [first, second, _] = axes;
+        let solid = (velocity, roughness);
+        let along = |axis: usize| {
+            self.face_along(
+                cell,
+                [columns, heights],
+                is_open,
+                solid,
+                (less, &open),
+                axis,
+            )
+        };
+        let other = || (less[second].abs() > DIAGONAL * less[first].abs()).then_some(second);
+        along(first).or_else(|| along(other()?))
+    }
+
+    /// The same from the column along an axis, of a face with open directions that has less solid towards `less`.
+    fn face_along(
+        &self,
+        cell: usize,
+        [columns, heights]: [&Columns<'_>; 2],
+        is_open: &dyn Fn(usize) -> bool,
+        (velocity, roughness): ([f64; 3], f64),
+        (less, open): ([f64; 3], &[usize]),
+        axis: usize,
+    ) -> Option<Sloping> {
+        let model = self.wall_model.as_ref()?;
+        let here = (columns.fraction)(cell);
+        let out = if less[axis] > 0.0 { 1 } else { -1 };
+        let height = heights.height(cell, axis, out).ok()?;
         let beside = |side: usize, step| match (columns.around)(cell, along(side, step)) {
             Some(other) => heights.height(other, axis, out),
             None => Err(NoHeight::High),
@@ -282,9 +305,8 @@ impl Twin {
                         let own = straight + (1.0 - straight) * length;
                         (own + longer(first) + longer(second)).max(0.0)
                     },
-                    open,
+                    open: open.to_vec(),
                     above,
-                    sample: at,
                     u,
                     friction,
                     share: share(friction, nu),
@@ -334,7 +356,7 @@ impl Twin {
         let solid = self.solid_in(cell);
         let found = self.sloping(cell).filter(|_| solid.fraction >= FULL);
         found.map_or([0.0; Q], |face| {
-            let density = self.f[face.sample].iter().sum();
+            let density = face.density(|at| self.f[at].iter().sum());
             face.gain(face.slip(solid.velocity, leaving, density), balance)
         })
     }
@@ -345,7 +367,7 @@ impl Twin {
         balance(full.filter_map(|cell| {
             let face = self.sloping(cell)?;
             let leaving = self.collided_in(cell, nu_t[cell]);
-            let density = self.f[face.sample].iter().sum();
+            let density = face.density(|at| self.f[at].iter().sum());
             let m = face.slip(self.solid_in(cell).velocity, &leaving, density);
             Some((face.given(m), face.still().is_some()))
         }))
@@ -407,6 +429,12 @@ impl Sloping {
         self.open.iter().map(|&q| W[q] * dot(c(q), m)).sum()
     }
 
+    /// Mean of the excess densities `of` the last four cells of the column.
+    pub(super) fn density(&self, of: impl Fn(usize) -> f64) -> f64 {
+        let last = &self.above[self.above.len() - 4..];
+        last.iter().map(|&(cell, _)| of(cell)).sum::<f64>() / 4.0
+    }
+
     /// Two directions along the face.
     fn along(&self) -> [[f64; 3]; 2] {
         let n = self.normal;
@@ -448,8 +476,8 @@ impl Sloping {
         (sum > 0.5 * all).then_some((still, sum))
     }
 
-    /// m of a full cell of a solid with this velocity, times the share of the law. `density`: its excess where the law reads the
-    /// velocity.
+    /// m of a full cell of a solid with this velocity, times the share of the law. `density`: its excess over the
+    /// column.
     pub(super) fn slip(&self, velocity: [f64; 3], leaving: &[f64; Q], density: f64) -> [f64; 3] {
         if self.share == 0.0 || self.open.is_empty() {
             return [0.0; 3];
@@ -461,7 +489,8 @@ impl Sloping {
             |q: usize| leaving[q] - 3.0 * W[q] * dot(c(q), velocity) - at_rest(q, self.force);
         let over = |q: usize, t: usize| dot(c(q), along[t]);
         let excess = if self.kept > KEPT {
-            density - 3.0 * f64::from(self.out) * self.above.len() as f64 * self.force[self.axis]
+            let height = self.above.len() as f64 - 1.5;
+            density - 3.0 * f64::from(self.out) * height * self.force[self.axis]
         } else {
             // f = w (excess + c·slip), where the differences to the means over the open directions give the slip.
             let all = self.over_open(&|q| W[q]);

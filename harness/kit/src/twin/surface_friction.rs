@@ -127,7 +127,7 @@ impl Twin {
             for &(q, (other, reflected)) in &returned {
                 leaving[q] = self.f[other][reflected];
             }
-            let density = self.previous_density[face.sample];
+            let density = face.density(|at| self.previous_density[at]);
             let slip = face.slip([0.0; 3], &leaving, density);
             (face, returned, slip)
         });

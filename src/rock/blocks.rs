@@ -266,8 +266,8 @@ impl Blocks {
     /// Mean force of the fluid films on each block over the second half of the last step, N.
     pub fn film_forces(&self) -> Vec<DVec3> {
         let mut forces = vec![DVec3::ZERO; self.len()];
-        for (block, force) in self.films.forces() {
-            forces[block] = force;
+        for &(block, force) in &self.films.forces {
+            forces[block as usize] = force;
         }
         forces
     }

@@ -2,7 +2,7 @@
 //!
 //! The dashpots between two bodies have the share ζ of the critical damping of all their contacts together, whatever the number of
 //! parts: cᵢ = 2ζ√(m* kᵢ) √(kᵢ/K), with K = Σⱼ kⱼ (nᵢ·nⱼ)² the stiffness of all contacts along the normal of contact i. All
-//! fixed blocks count as one body.
+//! fixed and driven blocks count as one body.
 
 use super::{
     Body,
@@ -17,17 +17,27 @@ use std::collections::HashMap;
 /// Stiffness of the contacts of pairs of bodies.
 #[derive(Debug, Default)]
 pub(super) struct DampingShares {
-    /// Of each block with the fixed ones.
-    with_fixed: Vec<Sum>,
+    /// Of each block with the fixed and driven ones.
+    with_unmovable: Vec<Sum>,
     /// Of two others, if they may have several contacts.
     with_others: HashMap<[u32; 2], Sum>,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 struct Sum {
     contacts: u32,
     /// Σ k n nᵀ, N/m.
     stiffness: DMat3,
+}
+
+impl Default for Sum {
+    fn default() -> Self {
+        Self {
+            contacts: 0,
+            // The default of a matrix is the identity.
+            stiffness: DMat3::ZERO,
+        }
+    }
 }
 
 /// What determines the bodies of a contact.
@@ -43,7 +53,7 @@ pub(super) struct Bodies<'a> {
 
 /// Key of the sums of a contact.
 enum Key {
-    Fixed(u32),
+    Unmovable(u32),
     Others([u32; 2]),
     /// The only contact of its bodies.
     Single,
@@ -52,9 +62,9 @@ enum Key {
 impl Bodies<'_> {
     fn key(&self, contact: &Contact) -> Key {
         let [a, b] = contact.blocks;
-        match [a, b].map(|block| self.bodies[block as usize].is_fixed()) {
-            [false, true] => Key::Fixed(a),
-            [true, false] => Key::Fixed(b),
+        match [a, b].map(|block| self.bodies[block as usize].inverse_mass() == 0.0) {
+            [false, true] => Key::Unmovable(a),
+            [true, false] => Key::Unmovable(b),
             _ if self.repeated || self.has_parts(contact.parts) => Key::Others([a, b]),
             _ => Key::Single,
         }
@@ -80,12 +90,12 @@ impl DampingShares {
     /// The shares of all `contacts`.
     pub fn of(contacts: &ContactList, bodies: Bodies<'_>) -> Self {
         let mut shares = Self {
-            with_fixed: vec![Sum::default(); bodies.mid_steps.len()],
+            with_unmovable: vec![Sum::default(); bodies.mid_steps.len()],
             with_others: HashMap::new(),
         };
         for contact in contacts.iter().filter(|contact| contact.area > 0.0) {
             let sum = match bodies.key(contact) {
-                Key::Fixed(block) => &mut shares.with_fixed[block as usize],
+                Key::Unmovable(block) => &mut shares.with_unmovable[block as usize],
                 Key::Others(blocks) => shares.with_others.entry(blocks).or_default(),
                 Key::Single => continue,
             };
@@ -100,7 +110,7 @@ impl DampingShares {
     /// Share kᵢ/K of one of the contacts.
     pub fn share(&self, contact: &Contact, bodies: Bodies<'_>) -> f64 {
         let sum = match bodies.key(contact) {
-            Key::Fixed(block) => self.with_fixed.get(block as usize),
+            Key::Unmovable(block) => self.with_unmovable.get(block as usize),
             Key::Others(blocks) => self.with_others.get(&blocks),
             Key::Single => None,
         };

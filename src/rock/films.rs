@@ -137,6 +137,8 @@ pub(super) struct Films {
     rows: Vec<Row>,
     /// Length of the step, s.
     dt: f64,
+    /// All blocks with films, and the mean forces of the films on them over the second half of the last step, N.
+    pub forces: Vec<(u32, DVec3)>,
 }
 
 impl Films {
@@ -183,6 +185,11 @@ impl Films {
             state.momentum += film_body.push.momentum;
             state.spin = integrate::spin(&body.inertia, state.rotation, state.momentum);
         }
+        let half = 0.5 * self.dt;
+        self.forces.clear();
+        let bodies = self.film_bodies.iter();
+        self.forces
+            .extend(bodies.map(|one| (one.block as u32, one.push.impulse / half)));
         taken
     }
 
@@ -192,14 +199,6 @@ impl Films {
             Some(&index) if index != NO_BODY => self.film_bodies[index as usize].push,
             _ => FilmImpulse::default(),
         }
-    }
-
-    /// All blocks with films, and the forces of the films on them, N.
-    pub fn forces(&self) -> impl Iterator<Item = (usize, DVec3)> + '_ {
-        let half = 0.5 * self.dt;
-        self.film_bodies
-            .iter()
-            .map(move |film_body| (film_body.block, film_body.push.impulse / half))
     }
 
     /// Sets up the films of a half step, and the present motion of their blocks.

@@ -15,12 +15,14 @@ use glam::DVec3;
 const TOUCHING: f64 = 1e-3;
 /// Sweeps in which the largest overlap must halve; otherwise there is no room.
 const PATIENCE: usize = 100;
+/// Component of the normal along a guide from which the block moves along the guide.
+const LEAST_ALONG_GUIDE: f64 = 0.01;
 
 impl Blocks {
     /// Pushes overlapping blocks apart along their contact normals, pair after pair, until they only just touch. Overlaps up to
     /// [`Setup::start_overlap`](super::Setup::start_overlap) may remain between blocks that have no room. The blocks of a pair move in inverse proportion to their
     /// masses; blocks with the same centre, whose contact has no normal, along gravity. No block rotates, fixed and driven
-    /// blocks do not move, and velocities do not change.
+    /// blocks do not move, guided ones along their guides only, and velocities do not change.
     ///
     /// Returns the number of sweeps over all pairs, at most `sweeps`.
     ///
@@ -55,6 +57,21 @@ impl Blocks {
         Err(Error::Overlaps { pairs: left })
     }
 
+    /// Displacement of a block per impulse along `normal`, 1/kg: along its guide, and zero if it does not move.
+    fn mobility(&self, block: usize, normal: DVec3) -> DVec3 {
+        let body = &self.bodies[block];
+        let deforming = self.deforming.of(body);
+        if deforming.is_some_and(|(one, _)| !one.constraints.is_empty()) {
+            return DVec3::ZERO;
+        }
+        let along = match body.guide.as_deref() {
+            Some(&guide) if guide.dot(normal).abs() < LEAST_ALONG_GUIDE => DVec3::ZERO,
+            Some(&guide) => guide * guide.dot(normal),
+            None => normal,
+        };
+        body.inverse_mass() * along
+    }
+
     /// One sweep; returns the pairs that overlapped too much before it, and the largest overlap that it has reduced over the
     /// allowed one.
     fn push_apart(&mut self, resolver: &mut Resolver) -> Result<(Vec<Overlap>, f64)> {
@@ -65,19 +82,6 @@ impl Blocks {
             let blocks = pair
                 .parts
                 .map(|part| self.parts.block[part as usize] as usize);
-            // Blocks with fixed points do not move either.
-            let inverse = blocks.map(|block| {
-                let body = &self.bodies[block];
-                let constrained = self
-                    .deforming
-                    .of(body)
-                    .is_some_and(|(one, _)| !one.constraints.is_empty());
-                if constrained {
-                    0.0
-                } else {
-                    body.inverse_mass()
-                }
-            });
             let [first, second] = pair.parts.map(|part| &self.parts.placed[part as usize]);
             let periods = self.periods.as_ref();
             let image_shift =
@@ -95,10 +99,9 @@ impl Blocks {
                     depth: contact.overlap,
                 });
             }
-            if contact.overlap <= TOUCHING * most || inverse == [0.0; 2] {
+            if contact.overlap <= TOUCHING * most {
                 continue;
             }
-            largest = f64::max(largest, contact.overlap / most);
             // They stay in contact.
             let (normal, distance) = match contact.overlap.is_finite() {
                 true => (contact.normal, contact.overlap - 0.5 * TOUCHING * most),
@@ -107,10 +110,15 @@ impl Blocks {
                     (down, DISTANCES_PER_LIMIT * contact.limit)
                 }
             };
+            let mobility = blocks.map(|block| self.mobility(block, normal));
+            let both = mobility[0] + mobility[1];
+            if both == DVec3::ZERO {
+                continue;
+            }
+            largest = f64::max(largest, contact.overlap / most);
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
-                let share = inverse[k] / (inverse[0] + inverse[1]);
                 let block = blocks[k];
-                self.states[block].centre += normal * (sign * share * distance);
+                self.states[block].centre += mobility[k] * (sign * distance / both.dot(normal));
                 let body = &self.bodies[block];
                 let pose = pose(body, &self.states[block], &self.deforming.strains);
                 self.parts.place_block(body, &pose);

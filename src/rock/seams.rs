@@ -1,6 +1,8 @@
 //! Spheres at seams: where pieces of one surface meet, a sphere touches the nearest piece only.
 //!
 //! A piece is hidden if its nearest point lies in another piece that is nearer, or in one as near that belongs to the same body.
+//! Between pieces of different bodies, which sink under the sphere and move apart, distances much smaller than its overlap do not
+//! count: of two such pieces that are as near, the one that has the contact keeps it.
 //! When the sphere rolls over a seam, the nearest piece takes over the contact with its history.
 
 use super::{candidate_pairs::CandidatePair, contact_list::Contact, narrowphase::Narrowphase};
@@ -13,6 +15,8 @@ use std::collections::HashMap;
 
 /// Distance within which pieces meet, relative to the size of the pieces.
 const ROUNDING: f64 = 1e-9;
+/// Step and gap between two bodies over which a sphere rolls as if there were none, relative to its overlap.
+const STEP: f64 = 0.05;
 
 /// What the seams change in the contacts of the pairs, by the index of the pair.
 #[derive(Debug, Default)]
@@ -42,19 +46,35 @@ struct Touch<'a> {
     to_sphere: DVec3,
     /// From the centre of the sphere to the nearest point of the piece, m.
     to_point: DVec3,
+    /// How far the sphere reaches beyond that point, m.
+    overlap: f64,
+    /// Whether the pair had a contact in the last step.
+    touched: bool,
 }
 
 impl Touch<'_> {
     /// Whether this piece hides the other.
     fn hides(&self, other: &Self) -> bool {
         // Where each has the nearest point of the other, they are as near.
-        self.has_point_of(other)
-            && (!other.has_point_of(self) || (self.body == other.body && self.pair < other.pair))
+        self.has_point_of(other) && (!other.has_point_of(self) || self.precedes(other))
+    }
+
+    /// Whether this piece keeps the contact if the other is as near.
+    fn precedes(&self, other: &Self) -> bool {
+        if self.body == other.body {
+            return self.pair < other.pair;
+        }
+        self.touched && !other.touched
     }
 
     /// Whether the nearest point of the other piece lies in this one.
     fn has_point_of(&self, other: &Self) -> bool {
-        let tolerance = ROUNDING * (self.piece.radius + other.piece.radius);
+        let step = if self.body == other.body {
+            0.0
+        } else {
+            STEP * self.overlap
+        };
+        let tolerance = ROUNDING * (self.piece.radius + other.piece.radius) + step;
         let point = self.to_sphere + other.to_point;
         let mut faces = self.piece.faces.iter();
         faces.all(|face| face.normal.dot(point) <= face.distance + tolerance)
@@ -138,7 +158,8 @@ impl Narrowphase<'_> {
         let to_point = nearest_point(piece, to_sphere) - to_sphere;
         let block = self.parts.block[part as usize];
         let fixed = self.bodies[block as usize].is_fixed();
-        (to_point.length() < ball.radius).then_some(Touch {
+        let overlap = ball.radius - to_point.length();
+        (overlap > 0.0).then_some(Touch {
             sphere,
             pair: n,
             sphere_first,
@@ -146,6 +167,8 @@ impl Narrowphase<'_> {
             piece,
             to_sphere,
             to_point,
+            overlap,
+            touched: self.contacts.of(pair).is_some(),
         })
     }
 

@@ -10,6 +10,7 @@ use super::{
     films::Film,
 };
 use crate::{Error, Result};
+use glam::DVec3;
 
 /// All data on which the next steps depend: poses, momenta, deformations, forces, contact histories, caches of the
 /// resolver, the ledger. Constants such as shapes are in the
@@ -26,6 +27,8 @@ pub struct Snapshot {
     pairs: Vec<CandidatePair>,
     contacts: Vec<Contact>,
     films: Vec<Film>,
+    /// Forces of the films in the last step, N.
+    film_forces: Vec<(u32, DVec3)>,
     work_sums: WorkSums,
     /// States of deformable blocks.
     strains: Vec<Strain>,
@@ -45,6 +48,7 @@ impl Snapshot {
             size_of_val(&*self.pairs),
             size_of_val(&*self.contacts),
             size_of_val(&*self.films),
+            size_of_val(&*self.film_forces),
             size_of_val(&*self.strains),
         ];
         let bonds = self.contacts.iter().flat_map(|contact| &contact.bond);
@@ -74,6 +78,7 @@ impl Blocks {
             .list(&mut snapshot.pairs, &mut snapshot.contacts);
         snapshot.films.clear();
         snapshot.films.extend(self.contacts.films());
+        snapshot.film_forces.clone_from(&self.films.forces);
         snapshot.work_sums = self.work_sums;
         snapshot.strains.clone_from(&self.deforming.strains);
     }
@@ -110,7 +115,11 @@ impl Blocks {
             && snapshot
                 .films
                 .iter()
-                .all(|film| film.blocks.iter().all(|&block| block < blocks));
+                .all(|film| film.blocks.iter().all(|&block| block < blocks))
+            && snapshot
+                .film_forces
+                .iter()
+                .all(|&(block, _)| block < blocks);
         if !fits {
             let message = format!(
                 "it is of another scene: it holds {} blocks, {} of them deformable, this one {} and {}",
@@ -129,6 +138,7 @@ impl Blocks {
         self.skin_references.clone_from(&snapshot.skin_references);
         self.pairs.clone_from(&snapshot.pairs);
         self.contacts = ContactList::from_list(&snapshot.contacts, &snapshot.films);
+        self.films.forces.clone_from(&snapshot.film_forces);
         self.work_sums = snapshot.work_sums;
         self.deforming.strains.clone_from(&snapshot.strains);
         self.place();

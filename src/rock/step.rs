@@ -266,9 +266,9 @@ impl Blocks {
         let Some(sleep) = self.sleep else {
             return;
         };
-        for (block, force) in self.films.forces() {
-            let state = &mut self.states[block];
-            let weight = self.bodies[block].mass * self.gravity.length();
+        for &(block, force) in &self.films.forces {
+            let state = &mut self.states[block as usize];
+            let weight = self.bodies[block as usize].mass * self.gravity.length();
             if state.asleep && force.length() > sleep.change * weight {
                 (state.asleep, state.slow) = (false, 0.0);
             }

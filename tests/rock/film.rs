@@ -121,9 +121,14 @@ fn films_in_a_row_carry_what_is_above_them() {
             DVec3::Z * z,
         ));
     }
-    let mut blocks = blocks(with_film(list, 1e8, 1e-3));
+    let setup = with_film(list, 1e8, 1e-3);
+    let mut blocks = blocks(setup.clone());
     run(&mut blocks, 0.02);
     let carried = blocks.film_forces()[0].z;
+    let snapshot = blocks.snapshot();
+    let mut again = Blocks::new(setup).unwrap();
+    again.restore(&snapshot).unwrap();
+    assert_eq!(again.film_forces(), blocks.film_forces());
     let weight = 5.0 * blocks.mass(1) * 9.81;
     assert_relative(-carried, weight, 1e-3);
     // Each gap closes at the velocity given by its load over its resistance.

@@ -4,7 +4,7 @@ use crate::fixture::{assert_restarts, blocks, cube, cuboid, joint, run, setup};
 use glam::{DMat3, DQuat, DVec3};
 use riprap::{
     geometry::Load,
-    rock::{Block, Blocks, Guide, Motion},
+    rock::{Block, Blocks, Guide, Motion, broadphase::HostBroadphase},
 };
 
 const AXIS: DVec3 = DVec3::new(3.0, 0.0, -4.0);
@@ -62,6 +62,24 @@ fn it_strikes_another_and_stays_on_its_rail() {
     let ledger = whole.ledger();
     let error = (ledger.balance() - start.balance()).abs();
     assert!(error < 1e-3 * start.kinetic, "{error} J of {ledger:?}");
+}
+
+/// Blocks that overlap at the start go apart along the guide, or are refused if it leaves no room.
+#[test]
+fn it_is_relaxed_along_its_rail() {
+    let relaxed = |axis: DVec3, other: DVec3| {
+        let other = Block::new("other", cuboid(1.0, 1.0, 1.0), other).fixed();
+        let mut setup = guided(vec![cube("cube", 0.0), other]);
+        setup.guides[0].axis = axis;
+        let mut blocks = blocks(setup);
+        let result = pollster::block_on(blocks.relax(&mut HostBroadphase, 100));
+        result.map(|_| blocks.poses()[0].centre)
+    };
+    let other = DVec3::new(0.95, 0.0, 0.0);
+    let centre = relaxed(AXIS, other).unwrap();
+    assert!(centre.cross(AXIS).length() < 1e-12, "{centre}");
+    assert!((centre.x + 0.05).abs() < 1e-3, "{centre}");
+    assert!(relaxed(DVec3::Z, other).is_err());
 }
 
 #[test]

@@ -84,6 +84,26 @@ fn one_that_slides_on_the_level_ends_with_five_sevenths_of_its_speed() {
     assert_relative(spin.y * RADIUS, exact, 1e-3);
 }
 
+/// The slab under the sphere sinks by more than the one next to it.
+#[test]
+fn a_step_much_smaller_than_its_overlap_does_not_push_it() {
+    let slab = |x: f64| Block::new("slab", cuboid(1.0, 1.0, 0.2), DVec3::new(x, 0.0, -0.1));
+    let floor = Block::new("floor", cuboid(4.0, 4.0, 1.0), DVec3::Z * -0.7).fixed();
+    let sphere = Shape::sphere(RADIUS).expect("the radius is positive");
+    let sphere = Block::new("sphere", sphere, DVec3::new(0.012, 0.0, RADIUS));
+    let mut joint = joint(1e8, FRICTION);
+    joint.damping = 0.5;
+    let mut blocks = blocks(setup(vec![sphere, slab(-0.5), slab(0.5), floor], joint));
+    run(&mut blocks, 0.5);
+    let [sphere, left, right, _] = blocks.poses()[..] else {
+        panic!("four blocks");
+    };
+    assert!(left.centre.z - right.centre.z > 1e-6, "no step");
+    // The slab under it tilts by 821 N · 0.488 m over k_n/12 m⁴ = 4.8e-5: within 0.5 s it rolls by 5/14 of g 4.8e-5 t² = 4.2e-5 m.
+    let moved = sphere.centre - DVec3::X * 0.012;
+    assert!(moved.truncate().length() < 1e-4, "{moved}");
+}
+
 /// Seams across the path, along it, and at nodes: at each only one piece is touched, and it takes over the friction.
 #[test]
 fn seams_of_a_floor_do_not_disturb_it() {

@@ -15,7 +15,7 @@ use std::{
 /// First bytes of a file.
 const MAGIC: &[u8; 17] = b"riprap checkpoint";
 /// Version of the format, higher than the versions of the three formats before it.
-const VERSION: u8 = 18;
+const VERSION: u8 = 19;
 /// First bytes of the formats before version 6; their version is the digit at [`OLD_VERSION`].
 const OLD_MAGICS: [&[u8]; 3] = [b"riprap state ", b"riprap rocks ", b"riprap water "];
 /// Offset of the version in the formats before version 6.

@@ -278,6 +278,9 @@ fn explain(message: &str) -> String {
     {
         return format!("has {has} values; give {wants} between the brackets");
     }
+    if message.starts_with("invalid type: map, expected a sequence") {
+        return "is a list of tables; write each of them below its key in double brackets, as [[materials]]".into();
+    }
     message
         .trim_end()
         .replace("expected f64", "expected a number")

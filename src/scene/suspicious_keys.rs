@@ -16,6 +16,8 @@ const GRAVITY: f64 = 0.5;
 /// Angle of friction, degrees, below which the number is probably a tangent: as a tangent it is that of 56°. No contact of dry
 /// rocks is so slippery.
 const TANGENT: f64 = 1.5;
+/// Ratio of the densities of a block and the fluid above which one of them is probably not in kg/m³: that of iron to water is 8.
+const DENSITIES: f64 = 100.0;
 /// Largest overlap of a block at rest, as a fraction of its smallest distance from centroid to face or of its radius: as much
 /// as blocks may overlap at the start.
 const SINKS: f64 = 0.01;
@@ -97,6 +99,31 @@ impl Scene {
                         .into(),
                 );
             }
+        }
+        for one in self.materials.iter().filter(|_| self.has_fluid()) {
+            let ratio = one.density / self.fluid.density;
+            if !(1.0 / DENSITIES..=DENSITIES).contains(&ratio) {
+                warn(
+                    format!("materials.{}.density", one.name),
+                    format!(
+                        "{} and fluid.density = {} are kg/m³, and differ by a factor of {:.0}: write 2700 for rock and 1000 for \
+                         water, not 2.7 and 1",
+                        one.density,
+                        self.fluid.density,
+                        ratio.max(1.0 / ratio)
+                    ),
+                );
+            }
+        }
+        let [x, y, z] = self.rock.gravity;
+        if self.has_blocks() && z > x.abs().max(y.abs()) {
+            warn(
+                "rock.gravity".into(),
+                format!(
+                    "blocks fall upwards, along +z: write gravity = [{}, {}, {}], unless z is the depth",
+                    x, y, -z
+                ),
+            );
         }
         for (number, block) in self.blocks.iter().enumerate() {
             if let Some((depth, stiffness)) = self.sinks(block) {
@@ -195,7 +222,7 @@ impl Scene {
         advice
     }
 
-    /// The velocity face of the lattice that sends the largest pressure wave at t = 0, its normal speed (m/s), that pressure ρcU (Pa),
+    /// The velocity face of the lattice that sends the largest pressure wave at t = 0, its normal speed (m/s), that pressure ρcΔU (Pa),
     /// and the free block, a box or sphere, for which it is larger than the submerged weight over the area.
     fn impulsive_start(&self, time_step: f64) -> Option<(Face, f64, f64, usize)> {
         if !self.has_fluid() || self.has_particles() || self.coupling.hold > 0.0 {
@@ -205,14 +232,16 @@ impl Scene {
         let speed = |(face, boundary): (Face, &Boundary)| match boundary {
             Boundary::Velocity { velocity, .. } => {
                 let normal = &velocity[face.axis().index()];
-                Some((face, normal.eval_at(middle, 0.0).abs()))
+                let at_start = &self.initial.velocity[face.axis().index()];
+                let [speed, own] = [normal, at_start].map(|of| of.eval_at(middle, 0.0));
+                Some((face, speed.abs(), (speed - own).abs()))
             }
             _ => None,
         };
         let inlets = self.boundaries.iter().filter_map(speed);
-        let (face, speed) = inlets.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (face, speed, change) = inlets.max_by(|a, b| a.2.total_cmp(&b.2))?;
         let sound = self.domain.cell / time_step / 3.0_f64.sqrt();
-        let pressure = self.fluid.density * sound * speed;
+        let pressure = self.fluid.density * sound * change;
         let gravity = DVec3::from_array(self.rock.gravity).length();
         let is_light = |block: &Block| {
             let height = match &block.shape {

@@ -224,6 +224,7 @@ pub fn wall_surface(frictions: &WallFrictions) -> Surface {
             ),
             Array::scalars("y_plus", walls.iter().map(|wall| wall.y_plus)),
             Array::scalars("model_share", walls.iter().map(|wall| wall.share)),
+            Array::scalars("area", walls.iter().map(|wall| wall.area)),
         ],
     }
 }

@@ -16,6 +16,9 @@ enum Step {
     Index(usize),
 }
 
+/// Keys of velocities, with the squares of which loads grow.
+const VELOCITIES: [&str; 3] = ["velocity", "bulk_velocity", "speed"];
+
 /// Whether the text at this key is a name or a word, which may look like a formula: `x`.
 fn names(step: &Step) -> bool {
     const NAMES: [&str; 6] = ["name", "axis", "kind", "block", "material", "title"];
@@ -46,6 +49,23 @@ impl Key {
             text: text.into(),
             steps,
         })
+    }
+
+    /// Refuses a key whose value the loads of the flow do not grow with the square of.
+    pub fn check_velocity(&self) -> Result<()> {
+        let is_velocity = |step: &Step| match step {
+            Step::Name(name) => VELOCITIES.contains(&name.as_str()),
+            Step::Index(_) => false,
+        };
+        if self.steps.iter().any(is_velocity) {
+            return Ok(());
+        }
+        let message = format!(
+            "loads are scaled with the square of a velocity, and `{}` is none; remove --equilibrium, or vary a key such as \
+             boundaries.x_min.velocity[0]",
+            self.text
+        );
+        Err(Error::argument("--equilibrium", message))
     }
 
     /// Sets the number in the scene to a value, or multiplies the formula that is there by it. A number that a table does not
@@ -171,6 +191,23 @@ mod tests {
         // Keys that have a default need not be written.
         let changed = set("numerics.time_step").unwrap();
         assert_eq!(changed["numerics"]["time_step"], Value::Float(7.5));
+    }
+
+    #[test]
+    fn keys_of_velocities_are_known() {
+        for key in [
+            "boundaries.x_min.velocity[0]",
+            "fluid.bulk_velocity",
+            "boundaries.x_min.inflow.speed",
+        ] {
+            Key::parse(key).unwrap().check_velocity().unwrap();
+        }
+        let other = Key::parse("materials.velocity_stone.friction").unwrap();
+        let error = other.check_velocity().unwrap_err().to_string();
+        assert!(
+            error.contains("`materials.velocity_stone.friction` is none"),
+            "{error}"
+        );
     }
 
     #[test]

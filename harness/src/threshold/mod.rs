@@ -86,6 +86,9 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Report> {
         .iter()
         .map(|key| Key::parse(key))
         .collect::<riprap::Result<_>>()?;
+    if args.equilibrium {
+        keys.iter().try_for_each(Key::check_velocity)?;
+    }
     let table: toml::Table = toml::from_str(&text).map_err(|e| Error::file(&args.scene, e))?;
     let open = |value: f64| -> riprap::Result<SceneRun> {
         let mut table = table.clone();

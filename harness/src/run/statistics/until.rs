@@ -173,7 +173,8 @@ impl fmt::Display for Converged {
             ),
             None => write!(
                 f,
-                "  statistical error of means: not known yet, too few samples; run longer, or let probes measure more often"
+                "  statistical error of means: that of {} is not known yet, too few samples; run longer, or let its probe measure more often",
+                self.of
             ),
         }
     }

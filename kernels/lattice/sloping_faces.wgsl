@@ -194,23 +194,23 @@ fn sloping_face(cell: vec3<u32>, here: Solid) -> SlopingCell {
     others[first] = 0.0;
     let second = largest_axis(others);
     let axes = select(1u, 2u, abs(less[second]) > DIAGONAL * abs(less[first]));
-    for (var n = 0u; n < axes && found.slope == NO_SLOPE; n++) {
-        found = face_along(found, cell, here.fraction, less, select(first, second, n == 1u));
+    var axis = first;
+    var face = 0u;
+    var height = NO_COLUMN;
+    var nearest = 0u;
+    var is_open = false;
+    for (var n = 0u; n < axes && !is_open; n++) {
+        axis = select(first, second, n == 1u);
+        face = face_towards(less, axis);
+        height = column_height(cell, face);
+        // No face is nearer than this along the axis.
+        nearest = u32(max(ceil(SAMPLE_DISTANCE + height), 0.0));
+        is_open = is_height(height) && has_fluid(cell, face, height, 0u, nearest);
     }
-    return found;
-}
-
-// The same from the column along an axis, of a face with open directions that has less solid towards `less`.
-fn face_along(at: SlopingCell, cell: vec3<u32>, own_fraction: f32, less: vec3<f32>, axis: u32) -> SlopingCell {
-    var found = at;
-    let height = column_height(cell, face_towards(less, axis));
-    let up = less[axis] > 0.0;
-    let face = face_towards(less, axis);
-    // No face is nearer than this along the axis.
-    let nearest = u32(ceil(SAMPLE_DISTANCE + height));
-    if (!is_height(height) || !has_fluid(cell, face, height, 0u, nearest)) {
+    if (!is_open) {
         return found;
     }
+    let up = less[axis] > 0.0;
     let along = vec2((axis + 1u) % 3u, (axis + 2u) % 3u);
     let profile_x = profile_along(cell, face, along.x, height);
     let profile_y = profile_along(cell, face, along.y, height);
@@ -223,12 +223,12 @@ fn face_along(at: SlopingCell, cell: vec3<u32>, own_fraction: f32, less: vec3<f3
     }
     found.normal = normalize(normal);
     let rise = abs(found.normal[axis]);
-    let top = own_fraction >= FULL && fraction_at(through(cell, face, 1u)) < FULL;
+    let top = here.fraction >= FULL && fraction_at(through(cell, face, 1u)) < FULL;
     let cells = u32(ceil(SAMPLE_DISTANCE / rise + height));
     if (cells > REACH || !has_fluid(cell, face, height, nearest, cells)) {
         return found;
     }
-    found.open = select(0u, found.open, own_fraction >= FULL);
+    found.open = select(0u, found.open, here.fraction >= FULL);
     let own = mix(1.0 / rise, 1.0, max(profile_x.straight, profile_y.straight));
     found.area = select(0.0, max(own + profile_x.longer + profile_y.longer, 0.0), top);
     found.slope = face | select(0u, SLOPE_TOP, top) | (cells << SLOPE_CELLS) | (mirrors_of(cell) << SLOPE_FREE_SLIP);

@@ -120,8 +120,15 @@ impl Solids<'_> {
         })
     }
 
+    /// Whether a cell of a column at this height above the surface holds no solid that is not of the surface.
+    fn is_free(&self, at: [u32; 3], above: f64) -> bool {
+        let fraction = self.fraction(at);
+        !(above > 2.0 && fraction > 0.0 || above > 0.5 && fraction == 1.0)
+    }
+
     /// The face at a cell that the surface cuts, or that lies full under it.
     fn face(&self, cell: [u32; 3]) -> Option<Found> {
+        let own = self.fraction(cell);
         let mut open = 0;
         // Towards less solid, with the weights of Youngs 1984.
         let mut less = DVec3::ZERO;
@@ -146,15 +153,24 @@ impl Solids<'_> {
         axes.sort_by(|&a, &b| size[b].total_cmp(&size[a]));
         let [first, second, _] = axes;
         let other = || (less[second].abs() > DIAGONAL * less[first].abs()).then_some(second);
-        let along = |axis| self.face_along(cell, axis, less, open);
-        along(first).or_else(|| along(other()?))
-    }
-
-    /// The face from the column of a cell along an axis, with less solid towards `less` and these open directions.
-    fn face_along(&self, cell: [u32; 3], axis: usize, less: DVec3, open: u32) -> Option<Found> {
-        let own = self.fraction(cell);
-        let out = if less[axis] > 0.0 { 1 } else { -1 };
-        let height = self.column(cell, axis, out).height()?;
+        let column = |axis| {
+            let out = if less[axis] > 0.0 { 1 } else { -1 };
+            let height = self.column(cell, axis, out).height()?;
+            // No face is nearer than this along the axis.
+            let nearest = (SAMPLE_DISTANCE + height).ceil().max(0.0) as u32;
+            let mut at = cell;
+            let mut is_free = |k: u32| {
+                self.neighbour(at, Self::step(axis, out))
+                    .is_some_and(|next| {
+                        at = next;
+                        self.is_free(at, f64::from(k) - height)
+                    })
+            };
+            (1..=nearest)
+                .all(&mut is_free)
+                .then_some((axis, out, height))
+        };
+        let (axis, out, height) = column(first).or_else(|| column(other()?))?;
         // At edges, the direction towards less solid.
         let mut normal = less;
         let [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
@@ -175,10 +191,7 @@ impl Solids<'_> {
         let mut at = cell;
         for k in 1..=REACH {
             at = self.neighbour(at, Self::step(axis, out))?;
-            let fraction = self.fraction(at);
-            if k as f64 > height + 2.0 && fraction > 0.0
-                || k as f64 > height + 0.5 && fraction == 1.0
-            {
+            if !self.is_free(at, k as f64 - height) {
                 return None;
             }
             let distance = (k as f64 - height) * rise;

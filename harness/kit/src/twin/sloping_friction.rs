@@ -165,6 +165,8 @@ impl Twin {
         is_open: &dyn Fn(usize) -> bool,
         (velocity, roughness): ([f64; 3], f64),
     ) -> Option<Sloping> {
+        let model = self.wall_model.as_ref()?;
+        let here = (columns.fraction)(cell);
         let mut less = [0.0; 3];
         let mut open = Vec::new();
         for q in 1..Q {
@@ -185,35 +187,24 @@ impl Twin {
         let mut axes = [0, 1, 2];
         axes.sort_by(|a, b| size[*b].total_cmp(&size[*a]));
         let [first, second, _] = axes;
-        let solid = (velocity, roughness);
-        let along = |axis: usize| {
-            self.face_along(
-                cell,
-                [columns, heights],
-                is_open,
-                solid,
-                (less, &open),
-                axis,
-            )
+        let column = |axis: usize| {
+            let out = if less[axis] > 0.0 { 1 } else { -1 };
+            let height = heights.height(cell, axis, out).ok()?;
+            // No face is nearer than this along the axis.
+            let nearest = (DISTANCE + height).ceil().max(0.0) as usize;
+            let mut at = cell;
+            let mut is_free = |k: usize| {
+                (columns.step)(at, axis, out).is_some_and(|next| {
+                    at = next;
+                    self.is_free(columns, at, k as f64 - height)
+                })
+            };
+            (1..=nearest)
+                .all(&mut is_free)
+                .then_some((axis, out, height))
         };
         let other = || (less[second].abs() > DIAGONAL * less[first].abs()).then_some(second);
-        along(first).or_else(|| along(other()?))
-    }
-
-    /// The same from the column along an axis, of a face with open directions that has less solid towards `less`.
-    fn face_along(
-        &self,
-        cell: usize,
-        [columns, heights]: [&Columns<'_>; 2],
-        is_open: &dyn Fn(usize) -> bool,
-        (velocity, roughness): ([f64; 3], f64),
-        (less, open): ([f64; 3], &[usize]),
-        axis: usize,
-    ) -> Option<Sloping> {
-        let model = self.wall_model.as_ref()?;
-        let here = (columns.fraction)(cell);
-        let out = if less[axis] > 0.0 { 1 } else { -1 };
-        let height = heights.height(cell, axis, out).ok()?;
+        let (axis, out, height) = column(first).or_else(|| column(other()?))?;
         let beside = |side: usize, step| match (columns.around)(cell, along(side, step)) {
             Some(other) => heights.height(other, axis, out),
             None => Err(NoHeight::High),
@@ -281,9 +272,8 @@ impl Twin {
         let mut at = cell;
         for k in 1..=REACH {
             at = (columns.step)(at, axis, out)?;
-            let fraction = (columns.fraction)(at);
             let above_face = k as f64 - height;
-            if above_face > 2.0 && fraction > 0.0 || above_face > 0.5 && self.domain.solid[at] {
+            if !self.is_free(columns, at, above_face) {
                 return None;
             }
             let distance = above_face / length;
@@ -305,7 +295,7 @@ impl Twin {
                         let own = straight + (1.0 - straight) * length;
                         (own + longer(first) + longer(second)).max(0.0)
                     },
-                    open: open.to_vec(),
+                    open,
                     above,
                     u,
                     friction,
@@ -316,6 +306,12 @@ impl Twin {
             }
         }
         None
+    }
+
+    /// Whether a cell of the column at this height above the face holds no solid that is not of the face.
+    fn is_free(&self, columns: &Columns<'_>, at: usize, above_face: f64) -> bool {
+        let other_solid = above_face > 2.0 && (columns.fraction)(at) > 0.0;
+        !other_solid && (above_face <= 0.5 || !self.domain.solid[at])
     }
 
     /// The cells at faces at an angle to the grid where the law acts, with the stress over the density and the share of the law:

@@ -18,7 +18,7 @@ use std::collections::HashMap;
 #[derive(Debug, Default)]
 pub(super) struct DampingShares {
     /// Of each block with the fixed and driven ones.
-    with_unmovable: Vec<Sum>,
+    with_immovable: Vec<Sum>,
     /// Of two others, if they may have several contacts.
     with_others: HashMap<[u32; 2], Sum>,
 }
@@ -53,7 +53,7 @@ pub(super) struct Bodies<'a> {
 
 /// Key of the sums of a contact.
 enum Key {
-    Unmovable(u32),
+    Immovable(u32),
     Others([u32; 2]),
     /// The only contact of its bodies.
     Single,
@@ -63,8 +63,8 @@ impl Bodies<'_> {
     fn key(&self, contact: &Contact) -> Key {
         let [a, b] = contact.blocks;
         match [a, b].map(|block| self.bodies[block as usize].inverse_mass() == 0.0) {
-            [false, true] => Key::Unmovable(a),
-            [true, false] => Key::Unmovable(b),
+            [false, true] => Key::Immovable(a),
+            [true, false] => Key::Immovable(b),
             _ if self.repeated || self.has_parts(contact.parts) => Key::Others([a, b]),
             _ => Key::Single,
         }
@@ -90,12 +90,12 @@ impl DampingShares {
     /// The shares of all `contacts`.
     pub fn of(contacts: &ContactList, bodies: Bodies<'_>) -> Self {
         let mut shares = Self {
-            with_unmovable: vec![Sum::default(); bodies.mid_steps.len()],
+            with_immovable: vec![Sum::default(); bodies.mid_steps.len()],
             with_others: HashMap::new(),
         };
         for contact in contacts.iter().filter(|contact| contact.area > 0.0) {
             let sum = match bodies.key(contact) {
-                Key::Unmovable(block) => &mut shares.with_unmovable[block as usize],
+                Key::Immovable(block) => &mut shares.with_immovable[block as usize],
                 Key::Others(blocks) => shares.with_others.entry(blocks).or_default(),
                 Key::Single => continue,
             };
@@ -110,7 +110,7 @@ impl DampingShares {
     /// Share kᵢ/K of one of the contacts.
     pub fn share(&self, contact: &Contact, bodies: Bodies<'_>) -> f64 {
         let sum = match bodies.key(contact) {
-            Key::Unmovable(block) => self.with_unmovable.get(block as usize),
+            Key::Immovable(block) => self.with_immovable.get(block as usize),
             Key::Others(blocks) => self.with_others.get(&blocks),
             Key::Single => None,
         };

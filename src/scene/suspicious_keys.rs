@@ -16,6 +16,8 @@ const GRAVITY: f64 = 0.5;
 /// Angle of friction, degrees, below which the number is probably a tangent: as a tangent it is that of 56°. No contact of dry
 /// rocks is so slippery.
 const TANGENT: f64 = 1.5;
+/// Steps above which a run is probably not meant to be that long.
+const STEPS: f64 = 1e8;
 /// Ratio of the densities of a block and the fluid above which one of them is probably not in kg/m³: that of iron to water is 8.
 const DENSITIES: f64 = 100.0;
 /// Largest overlap of a block at rest, as a fraction of its smallest distance from centroid to face or of its radius: as much
@@ -53,6 +55,16 @@ impl Scene {
                 format!(
                     "blocks are held for {hold} s and the run ends at {length:.6} s: none of them will move; take less, or run \
                      longer"
+                ),
+            );
+        }
+        let steps = length / time_step;
+        if steps > STEPS {
+            warn(
+                "run".into(),
+                format!(
+                    "takes {steps:.1e} steps of {time_step:.1e} s, which the stiffest contact or the fluid bounds: run for a \
+                     shorter time, or look for a normal_stiffness, viscosity or cell in another unit"
                 ),
             );
         }

@@ -147,6 +147,16 @@ fn a_wall_model_without_effect_on_an_exact_surface_is_told() {
     assert_eq!(found[0].place, "solids[0].surface");
 }
 
+#[test]
+fn a_run_of_many_steps_is_warned_of() {
+    let scene = read(STONE).unwrap();
+    let warned = |time_step: f64| {
+        let advice = scene.suspicious_keys(time_step);
+        advice.iter().any(|one| one.message.contains("steps of"))
+    };
+    assert!(warned(1e-9) && !warned(1e-8));
+}
+
 /// A sphere of radius R under water, (ρ − 1000) 4/3 π R³ g = k π u² (2R − u) at rest; u = 1.3 % of R at 1.63e7 Pa/m.
 #[test]
 fn blocks_that_sink_into_a_plane_at_rest_are_told() {

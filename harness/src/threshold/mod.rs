@@ -80,13 +80,13 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Report> {
         Error::file(&args.scene, message)
     })?;
     // Errors in the file itself are reported with their line.
-    Scene::from_file(&args.scene)?;
+    let scene = Scene::from_file(&args.scene)?;
     let keys: Vec<Key> = args
         .key
         .iter()
         .map(|key| Key::parse(key))
         .collect::<riprap::Result<_>>()?;
-    if args.equilibrium {
+    if args.equilibrium && scene.has_fluid() {
         keys.iter().try_for_each(Key::check_velocity)?;
     }
     let table: toml::Table = toml::from_str(&text).map_err(|e| Error::file(&args.scene, e))?;

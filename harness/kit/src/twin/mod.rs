@@ -16,6 +16,7 @@ pub mod moments;
 pub mod noise;
 pub mod of_setup;
 pub mod rates;
+mod sloping_exchange;
 mod sloping_friction;
 pub mod solid;
 pub mod statistics;

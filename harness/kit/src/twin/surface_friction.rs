@@ -2,7 +2,8 @@
 
 use super::Twin;
 use super::lattice::{C, Q, direction};
-use super::sloping_friction::{Columns, Sloping, along, balance, c, dot};
+use super::sloping_exchange::balance;
+use super::sloping_friction::{Columns, Sloping, along, c, dot};
 use super::wall_model::norm;
 use std::collections::{HashMap, HashSet};
 

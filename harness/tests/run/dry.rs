@@ -224,8 +224,8 @@ fn a_block_that_is_crushed_ends_the_run_with_names_and_a_state() {
     "#;
     let summary = go(&args(&folder, text, "out"));
     assert!(summary.diverged && !summary.complete);
-    let told = summary.divergence.as_deref().unwrap();
-    assert_contains(told, &["victim", "wall", "overlap by"]);
+    let message = summary.divergence.as_deref().unwrap();
+    assert_contains(message, &["victim", "wall", "overlap by"]);
     let at = summary.steps;
     assert!(at > 0);
     assert_eq!(summary.checkpoint_step, Some(at));

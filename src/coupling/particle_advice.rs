@@ -6,7 +6,7 @@ use crate::{
     geometry::{Form, Placed, min_max},
     rock::{Block, Blocks, Motion, broadphase::HostBroadphase, formula_values},
     scene::{
-        Advice, Probe, ProbePlace, Scene, Warning,
+        Advice, Probe, ProbePlace, Scene, Shape, Warning,
         build::{BlockSetup, particle_lattice, scene_step, water_bodies},
     },
     sph::{ConvexPart, Scheme, Setup, Side, SpeedEstimate, is_reached, water_volume},
@@ -88,30 +88,7 @@ pub async fn particle_advice(
             ),
         );
     }
-    let support = f64::from(setup.layers()) * spacing;
-    let thin = |block: &Block, form: &Form| match form {
-        Form::Sphere { radius } => 2.0 * radius < support,
-        Form::Convex(part) => part.faces().iter().any(|face| {
-            // The ends of a prism in a planar scene do not touch water.
-            let is_end = setup.plane && (block.rotation * face.normal).y.abs() > 0.5;
-            2.0 * face.distance < support && !is_end
-        }),
-    };
-    let thin = free().filter(|block| {
-        let mut parts = block.shape.parts().iter();
-        parts.all(|part| thin(block, &part.form))
-    });
-    let names: Vec<&str> = thin.map(|block| block.name.as_str()).collect();
-    if let Some(first) = names.first() {
-        warn(
-            "particles.spacing".into(),
-            format!(
-                "{} blocks, `{first}` the first, are thinner than the {support:.2e} m of the kernel support, so water interacts \
-                 across them; use a smaller spacing",
-                names.len()
-            ),
-        );
-    }
+    check_thin_blocks(scene, blocks, setup, &mut warn);
     let mut broadphase = HostBroadphase;
     let width = 2.0 * spacing;
     let mut narrow = gaps(
@@ -212,9 +189,74 @@ fn check_soft_blocks(blocks: &BlockSetup, setup: &Setup, warn: &mut impl FnMut(S
         warn(
             "particles".into(),
             format!(
-                "`{}` deforms, is soft, and is not much denser than the water: its strain and the pressure of the water excite each                  other; take a Young's modulus of {modulus:.1e} Pa at least, or a density of {:.0} kg/m³, or make it rigid",
+                "`{}` deforms, is soft, and is not much denser than the water: its strain and the pressure of the water excite each \
+                 other; take a Young's modulus of {modulus:.1e} Pa at least, or a density of {:.0} kg/m³, or make it rigid",
                 block.name,
                 LIGHT * setup.density
+            ),
+        );
+    }
+}
+
+/// Warns of blocks and solids thinner than the support of the kernel function, across which water interacts.
+fn check_thin_blocks(
+    scene: &Scene,
+    blocks: &BlockSetup,
+    setup: &Setup,
+    warn: &mut impl FnMut(String, String),
+) {
+    let support = f64::from(setup.layers()) * setup.spacing;
+    let least = support - 1e-6 * setup.spacing;
+    let all = &blocks.setup.blocks;
+    let obstacles = all.iter().filter(|block| block.motion != Motion::Free);
+    let obstacles: Vec<_> = obstacles.flat_map(ConvexPart::of_block).collect();
+    let is_reached = |at: DVec3, outward: DVec3| {
+        let front = at + 0.25 * setup.spacing * outward;
+        let near = |part: &&ConvexPart<'_>| part.is_near(front, 0.0);
+        is_reached(setup, &[], front, DVec3::ZERO) && obstacles.iter().find(near).is_none()
+    };
+    // Half of the thickness in the direction of a face, if the part is thin there.
+    let thin_faces = |part: &ConvexPart<'_>| -> Vec<(DVec3, f64)> {
+        let planes = part.planes().into_iter().filter_map(|plane| {
+            let half = -plane.height(part.centre);
+            // The ends of a prism in a planar scene do not touch water.
+            let is_end = setup.plane && plane.normal.y.abs() > 0.5;
+            (2.0 * half < least && !is_end).then_some((plane.normal, half))
+        });
+        match part.form {
+            Form::Sphere { radius } if 2.0 * radius < least => vec![(DVec3::Z, *radius)],
+            _ => planes.collect(),
+        }
+    };
+    // Floors and walls have water on one side.
+    let is_between = |part: &ConvexPart<'_>| {
+        thin_faces(part).into_iter().any(|(normal, half)| {
+            [normal, -normal]
+                .into_iter()
+                .all(|outward| is_reached(part.centre + half * outward, outward))
+        })
+    };
+    let is_terrain = |index: usize| {
+        let solid = scene.solids.get(index.wrapping_sub(blocks.in_fluid));
+        solid.is_some_and(|solid| matches!(solid.shape, Shape::Terrain { .. }))
+    };
+    let is_thin = |index: usize| {
+        let mut parts = ConvexPart::of_block(&all[index]).into_iter();
+        match all[index].motion {
+            Motion::Free => parts.all(|part| !thin_faces(&part).is_empty()),
+            _ => !is_terrain(index) && parts.any(|part| is_between(&part)),
+        }
+    };
+    // The walls of the domain follow the solids.
+    let found = (0..blocks.in_fluid + scene.solids.len()).filter(|index| is_thin(*index));
+    let names: Vec<&str> = found.map(|index| all[index].name.as_str()).collect();
+    if let Some(first) = names.first() {
+        warn(
+            "particles.spacing".into(),
+            format!(
+                "{} blocks, `{first}` the first, are thinner than the {support:.2e} m of the kernel support, so water interacts \
+                 across them, and leaks through moving ones; use a smaller spacing",
+                names.len()
             ),
         );
     }

@@ -439,7 +439,7 @@ pub(super) fn couple(torque: DVec3) -> DMat3 {
 }
 
 /// Frobenius norm, an upper bound of the growth of any vector.
-fn norm(a: DMat3) -> f64 {
+pub(super) fn norm(a: DMat3) -> f64 {
     let columns = [a.x_axis, a.y_axis, a.z_axis];
     columns
         .iter()

@@ -5,12 +5,15 @@ use super::{
     body::State,
     candidate_pairs::{CandidatePair, SkinReference},
     contact_list::{Contact, ContactList},
-    deforming::Strain,
+    deforming::{Strain, norm},
     energy::WorkSums,
     films::Film,
 };
 use crate::{Error, Result};
 use glam::DVec3;
+
+/// Tolerated displacement of a fixed point since the start, in radii of the block.
+const FIXED_POINT_TOLERANCE: f64 = 1e-6;
 
 /// All data on which the next steps depend: poses, momenta, deformations, forces, contact histories, caches of the
 /// resolver, the ledger. Constants such as shapes are in the
@@ -86,8 +89,10 @@ impl Blocks {
     /// Restores an earlier or later state of the same setup. The following steps have the same bits as those that
     /// followed when it was taken.
     ///
+    /// Blocks that are fixed here and moved there stop.
+    ///
     /// # Errors
-    /// [`Error::Argument`] if the state belongs to other blocks.
+    /// [`Error::Argument`] if the state belongs to other blocks, or if points are fixed that have moved.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<()> {
         let parts = self.parts.block.len() as u32;
         let blocks = self.len() as u32;
@@ -130,11 +135,17 @@ impl Blocks {
             );
             return Err(Error::argument("snapshot", message));
         }
+        self.check_fixed_points(snapshot)?;
         self.time = snapshot.time;
         self.steps = snapshot.steps;
         self.time_step = snapshot.time_step;
         self.started = snapshot.started;
         self.states.clone_from(&snapshot.states);
+        for (state, body) in self.states.iter_mut().zip(&self.bodies) {
+            if body.is_fixed() {
+                (state.velocity, state.spin, state.momentum) = Default::default();
+            }
+        }
         self.skin_references.clone_from(&snapshot.skin_references);
         self.pairs.clone_from(&snapshot.pairs);
         self.contacts = ContactList::from_list(&snapshot.contacts, &snapshot.films);
@@ -142,6 +153,24 @@ impl Blocks {
         self.work_sums = snapshot.work_sums;
         self.deforming.strains.clone_from(&snapshot.strains);
         self.place();
+        Ok(())
+    }
+
+    /// Checks that the fixed points of deformable blocks are where they were at the start.
+    fn check_fixed_points(&self, snapshot: &Snapshot) -> Result<()> {
+        for (one, strain) in self.deforming.list.iter().zip(&snapshot.strains) {
+            let (body, centre) = (&self.bodies[one.block], snapshot.states[one.block].centre);
+            let placed = one.constraints.place((centre, strain.deformation));
+            let moved =
+                (placed.0 - centre).length() + norm(placed.1 - strain.deformation) * body.radius;
+            if moved > FIXED_POINT_TOLERANCE * body.radius {
+                let message = format!(
+                    "its fixed points have moved by {moved:.2e} m since the start of the scene; points can be fixed from the \
+                     start only"
+                );
+                return Err(Error::argument(format!("block {}", body.name), message));
+            }
+        }
         Ok(())
     }
 }

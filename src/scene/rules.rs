@@ -167,7 +167,7 @@ pub(super) fn names<'a>(list: &str, names: impl Iterator<Item = (usize, &'a str)
         if !seen.insert(name.to_lowercase()) {
             return refuse(
                 key,
-                format!("the name `{name}` is taken already; choose another"),
+                format!("the name `{name}` is taken already (case is ignored); choose another"),
             );
         }
     }

@@ -290,8 +290,8 @@ fn check(block: &Block, parts: &[ConvexPart<'_>], lattice: &ParticleLattice) -> 
             };
             if !part.planes().iter().all(is_prismatic) {
                 return refuse(
-                    "has a face oblique to y, and the scene is planar (particles.plane); rotate the block, or remove \
-                     plane"
+                    "has a face oblique to y, and the scene is planar (particles.plane); rotate the block (give a terrain \
+                     the same heights in all its rows along y), or remove plane"
                         .into(),
                 );
             }
@@ -302,7 +302,7 @@ fn check(block: &Block, parts: &[ConvexPart<'_>], lattice: &ParticleLattice) -> 
             if !(exact || fits && block.motion != Motion::Free) {
                 return refuse(format!(
                     "extends from y = {} to {} m, and a planar scene (particles.plane) represents the whole domain, from \
-                     {} to {} m; give it that width",
+                     {} to {} m; give it that width (a terrain: two rows of heights along y)",
                     part.low.y, part.high.y, lattice.low.y, lattice.high.y
                 ));
             }

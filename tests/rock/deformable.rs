@@ -43,6 +43,27 @@ fn error(blocks: &Blocks, start: f64) -> f64 {
     (ledger.balance() - start).abs() / turned
 }
 
+/// A point can be fixed after a restart if it has not moved.
+#[test]
+fn points_that_have_moved_are_not_fixed_by_a_restart() {
+    let of = |points: bool| {
+        let block = Block::new("bar", cuboid(1.0, 1.0, 1.0), DVec3::ZERO);
+        let mut block = held(block, DVec3::splat(0.5));
+        if !points {
+            block.deformable = Some(Deformable::default());
+        }
+        blocks(elastic(setup(vec![block], joint(1e9, 30.0)), 1e9))
+    };
+    let mut falls = of(false);
+    of(true).restore(&falls.snapshot()).expect("no motion yet");
+    run(&mut falls, 0.01);
+    let refused = of(true).restore(&falls.snapshot()).expect_err("it fell");
+    kit::assert_contains(&refused.to_string(), &["block bar: ", "have moved by 4.9"]);
+    let mut hangs = of(true);
+    run(&mut hangs, 0.4);
+    of(true).restore(&hangs.snapshot()).expect("a pendulum");
+}
+
 /// The exact solution of the pendulum with two unknowns tends to that of the rigid pendulum as the block stiffens. The
 /// fixed point does not move.
 #[test]

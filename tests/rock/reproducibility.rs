@@ -1,7 +1,7 @@
 //! The same bits for any number of threads and any restart, and no unnecessary work.
 
 use crate::fixture::{assert_restarts, blocks, cuboid, joint, run, setup};
-use glam::{DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 use kit::assert_contains;
 use riprap::{
     geometry::{Form, Part, Polyhedron, Shape},
@@ -50,6 +50,29 @@ fn a_snapshot_goes_on_with_the_same_bits() {
         ..wall()
     });
     assert!(other.restore(&snapshot).is_err());
+}
+
+#[test]
+fn a_block_that_a_restart_fixes_stops() {
+    let of = |is_fixed: bool| {
+        let mut block = Block::new("stone", cuboid(1.0, 1.0, 1.0), DVec3::ZERO);
+        (block.velocity, block.spin) = (DVec3::X, DVec3::Y);
+        if is_fixed {
+            block = block.fixed();
+        }
+        blocks(setup(vec![block], joint(1e7, 30.0)))
+    };
+    let mut moved = of(false);
+    run(&mut moved, 0.1);
+    let before = moved.poses()[0];
+    let mut fixed = of(true);
+    fixed.restore(&moved.snapshot()).expect("the same block");
+    assert_eq!(fixed.ledger().kinetic, 0.0);
+    run(&mut fixed, 0.2);
+    let after = fixed.poses()[0];
+    assert_eq!(after.velocity, DVec3::ZERO);
+    assert_eq!(after.deformation_rate, DMat3::ZERO);
+    assert_eq!(after.centre, before.centre);
 }
 
 /// A block that slides on the first of `fixed` fixed blocks side by side.

@@ -383,6 +383,12 @@ fn a_probe_of_a_block_may_ask_for_its_faces_and_its_safety() {
         block_setup(&probed("step", "other").unwrap()),
         &["probes[0].faces", "`step` is a solid"],
     );
+    let mut round = probed("stone", "other").unwrap();
+    round.blocks[0].shape = BlockShape::Sphere { radius: 0.001 };
+    refused(
+        block_setup(&round),
+        &["probes[0].faces", "`stone` is a sphere"],
+    );
 }
 
 /// Blocks and a rock mass that deform.

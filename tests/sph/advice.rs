@@ -142,6 +142,27 @@ fn prisms_in_a_planar_scene_may_be_as_thin_as_it() {
     }
 }
 
+/// A thin wall has water on both sides, a thin slab on the floor on one.
+#[test]
+fn thin_walls_between_waters_give_a_warning() {
+    for (thickness, motion, count) in [
+        (0.1, "fixed", 1),
+        (0.1, "driven", 1),
+        (0.3, "fixed", 0),
+        (0.3, "driven", 0),
+    ] {
+        let wall = block(&format!(
+            "size = [{thickness}, 1, 1]\nposition = [1, 0.5, 0.5]\nmotion = \"{motion}\""
+        ));
+        let found = tank_with(&wall);
+        let found = found.iter().filter(|w| w.contains("thinner")).count();
+        assert_eq!(found, count, "{thickness} {motion}");
+    }
+    let slab = block("size = [2, 1, 0.1]\nposition = [1, 0.5, 0.05]\nmotion = \"fixed\"");
+    let found = tank_with(&slab);
+    assert!(found.iter().all(|w| !w.contains("thinner")), "{found:?}");
+}
+
 /// A sensor belongs on a wall or a fixed block, where water reaches all of its patch.
 #[test]
 fn sensors_that_measure_no_wall_are_named() {

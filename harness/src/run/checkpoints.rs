@@ -6,6 +6,7 @@ use super::{
     scene_run::SceneRun,
 };
 use anyhow::Result;
+use riprap::Error;
 use std::{
     fs,
     path::{Path, PathBuf},
@@ -165,8 +166,48 @@ pub fn check_order(path: &Path, text: &str) -> Result<()> {
 /// there is no scene next to the checkpoint.
 pub fn other_scene(path: &Path, text: &str) -> Option<String> {
     let path = beside(path);
+    let found = named_differences(&path, text)?;
+    Some(format!(
+        "the checkpoint is of another scene, which {} keeps: {found}; the run continues with the present scene, and \
+         energy_error includes the change",
+        path.display()
+    ))
+}
+
+/// The `error` of restoring the checkpoint at `path`, after the values in which the scene `text` differs from that of the
+/// checkpoint.
+pub fn with_differences(error: Error, path: &Path, text: &str) -> anyhow::Error {
+    let error = anyhow::Error::new(error);
+    match named_differences(&beside(path), text) {
+        Some(found) => error.context(format!("since the checkpoint, {found}")),
+        None => error,
+    }
+}
+
+/// A warning if `folder` holds the output of another scene than `text` and the checkpoint at `path` lies elsewhere: the rows of
+/// its tables up to the step of the checkpoint stay.
+pub fn other_tables(path: &Path, folder: &Path, text: &str) -> Option<String> {
+    let parent = path.parent().unwrap_or_else(|| Path::new(""));
+    let parent = match parent.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => parent,
+    };
+    if fs::canonicalize(parent).ok() == fs::canonicalize(folder).ok() {
+        return None;
+    }
+    let found = named_differences(&folder.join("checkpoint.toml"), text)?;
+    Some(format!(
+        "{} holds the output of another scene: {found}; rows of its tables before the step of the checkpoint stay; \
+         for new tables choose another folder with `--out`",
+        folder.display()
+    ))
+}
+
+/// The values in which the scene `text` differs from the one at `path`, the first of them by name. `None` if no value
+/// differs or there is no scene.
+fn named_differences(path: &Path, text: &str) -> Option<String> {
     let table = |text: &str| text.parse::<Table>().ok();
-    let [mut before, mut now] = [table(&fs::read_to_string(&path).ok()?)?, table(text)?];
+    let [mut before, mut now] = [table(&fs::read_to_string(path).ok()?)?, table(text)?];
     for key in BESIDE {
         before.remove(key);
         now.remove(key);
@@ -179,13 +220,7 @@ pub fn other_scene(path: &Path, text: &str) -> Option<String> {
         0 => String::new(),
         _ => format!(", and {more} more"),
     };
-    (!found.is_empty()).then(|| {
-        format!(
-            "the checkpoint is of another scene, which {} keeps: {}{rest}; the run continues with the present scene",
-            path.display(),
-            found.join(", ")
-        )
-    })
+    (!found.is_empty()).then(|| found.join(", ") + &rest)
 }
 
 /// Adds to `found` the differences between `before` and `now`, the values of a scene at `key`.
@@ -313,5 +348,38 @@ mod tests {
         assert!(two.contains("blocks had 1 entries and has 2"), "{two}");
         let gone = found(before, &before.replace("density = 1000\n", ""));
         assert!(gone.contains("fluid.density is gone"), "{gone}");
+    }
+
+    #[test]
+    fn tables_of_another_scene_are_warned_of_except_next_to_the_checkpoint() {
+        let [before, now] = [1, 2].map(|density| format!("[fluid]\ndensity = {density}\n"));
+        let other = tempfile::tempdir().expect("a folder to write to");
+        with_checkpoint_of(&now, |path| {
+            let folder = path.parent().expect("a folder");
+            assert_eq!(other_tables(path, folder, &before), None);
+            assert_eq!(other_tables(path, other.path(), &now), None);
+            keep_scene(&before, &other.path().join("checkpoint.riprap")).expect("a folder");
+            let warning = other_tables(path, other.path(), &now).unwrap_or_default();
+            let named = "holds the output of another scene: fluid.density was 1 and is 2;";
+            assert!(warning.contains(named), "{warning}");
+        });
+    }
+
+    #[test]
+    fn a_state_that_is_refused_comes_with_what_differs() {
+        with_checkpoint_of("a = 1\n", |path| {
+            let refused = |text: &str| {
+                with_differences(
+                    Error::argument("restart", "is of another scene"),
+                    path,
+                    text,
+                )
+            };
+            let message = format!("{:#}", refused("a = 2\n"));
+            let named = "since the checkpoint, a was 1 and is 2: ";
+            assert!(message.starts_with(named), "{message}");
+            assert!(message.ends_with("is of another scene"), "{message}");
+            assert_eq!(refused("a = 1\n").chain().count(), 1);
+        });
     }
 }

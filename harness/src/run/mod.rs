@@ -109,8 +109,10 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
         let message = "a run has at least one; `riprap check` examines a scene without running it";
         return Err(Error::argument("--steps 0", message).into());
     }
+    let text = std::fs::read_to_string(&args.scene).unwrap_or_default();
     if let Some(path) = &args.restart {
-        run.restore(path)?;
+        run.restore(path)
+            .map_err(|error| checkpoints::with_differences(error, path, &text))?;
     }
     let last = args
         .steps
@@ -134,18 +136,24 @@ fn computed(scene: &Scene, args: &Args, stop: &AtomicBool) -> Result<Summary> {
         Error::file(&folder, message)
     })?;
     let _locked = locked(&folder)?;
-    let text = std::fs::read_to_string(&args.scene).unwrap_or_default();
     let restart = args.restart.as_deref();
     if let Some(path) = restart {
         checkpoints::check_order(path, &text)?;
     }
+    let warnings = restart.into_iter().flat_map(|path| {
+        let tables = checkpoints::other_tables(path, &folder, &text);
+        checkpoints::other_scene(path, &text)
+            .into_iter()
+            .chain(tables)
+    });
+    let warnings: Vec<String> = warnings.collect();
     let mut runner = Runner::new(&mut run, &folder, last, restart, &text)?;
     if let Some(until) = args.until_error {
         runner.stop_at_error(until, &args.error_of, scene)?;
     }
     runner.summary.scene = args.scene.display().to_string();
     runner.print_header(&run);
-    if let Some(warning) = restart.and_then(|path| checkpoints::other_scene(path, &text)) {
+    for warning in warnings {
         eprintln!("warning: {warning}");
         runner.summary.warnings.push(warning);
     }

@@ -55,11 +55,19 @@ impl fmt::Display for WallModelSummary {
             percent(self.block_area_share, "blocks"),
         ];
         let on: Vec<String> = on.into_iter().flatten().collect();
+        // A share that is printed as 100 % leaves no others.
+        let is_whole = |share: f64| share == 0.0 || share >= 0.9995;
+        let others = match is_whole(self.area_share) && is_whole(self.block_area_share) {
+            true => "",
+            false => {
+                "; the others have no slip (corners, convex edges, gaps under five cells, faces that lie across cells, open and \
+                 moving faces)"
+            }
+        };
         write!(
             f,
             "  wall model on {}: y⁺ half a cell from them {:.1} on average, \
-             {:.1} at most, stress {:.3e} Pa; the others have no slip (corners, convex edges, gaps under five cells, faces that lie across \
-             cells, open and moving faces)",
+             {:.1} at most, stress {:.3e} Pa{others}",
             on.join(" and "),
             self.y_plus_mean,
             self.y_plus_max,

@@ -11,6 +11,7 @@ pub(crate) use shapes::{rotation, shape};
 use crate::{
     Error, Result,
     formula::Formula,
+    geometry::Form,
     rock::{Block, FixedPoint, Guide, Motion, Period, Setup, Sleep},
     scene::{Advice, Boundary, Face, NOT_IN_PLANE, ProbePlace, Scene},
 };
@@ -95,7 +96,7 @@ pub fn block_setup(scene: &Scene) -> Result<BlockSetup> {
         setup.blocks.extend(solids::walls(scene)?);
     }
     check_names(scene, &setup)?;
-    check_faces(scene, &setup.blocks[in_fluid..])?;
+    check_faces(scene, &setup.blocks, in_fluid)?;
     check_safety(scene, &setup)?;
     check_domain(scene, &setup)?;
     if scene.is_plane() {
@@ -270,20 +271,26 @@ fn check_domain(scene: &Scene, setup: &Setup) -> Result<()> {
     Ok(())
 }
 
-/// Checks that probes with `faces` are of blocks in the fluid, not of its solids.
-fn check_faces(scene: &Scene, solids: &[Block]) -> Result<()> {
+/// Checks that probes with `faces` are of blocks with plane faces in the fluid, the first `in_fluid` of `blocks`.
+fn check_faces(scene: &Scene, blocks: &[Block], in_fluid: usize) -> Result<()> {
     for (index, probe) in scene.probes.iter().enumerate() {
         if let ProbePlace::Block {
             block, faces: true, ..
         } = &probe.place
-            && solids.iter().any(|solid| solid.name == *block)
+            && let Some(found) = blocks.iter().position(|other| other.name == *block)
         {
+            let mut parts = blocks[found].shape.parts().iter();
+            let message = if found >= in_fluid {
+                "is a solid, whose cells the fluid does not enter; use a probe of the kind `face`, or make it a block with \
+                 motion = \"fixed\""
+            } else if parts.all(|part| matches!(part.form, Form::Sphere { .. })) {
+                "is a sphere, which has no plane faces; remove `faces`"
+            } else {
+                continue;
+            };
             return Err(Error::scene(
                 format!("probes[{index}].faces"),
-                format!(
-                    "`{block}` is a solid, whose cells the fluid does not enter; use a probe of the kind `face`, or \
-                     make it a block with motion = \"fixed\""
-                ),
+                format!("`{block}` {message}"),
             ));
         }
     }

@@ -3,6 +3,7 @@
 mod flow_control;
 mod hydrostatic_walls;
 mod levels;
+mod narrow_joints;
 mod oblique_plates;
 mod pressure_sensors;
 mod probes;

@@ -232,7 +232,7 @@ fn refusal(args: &Args) -> String {
     let error = run(args, &AtomicBool::new(false)).unwrap_err();
     assert!(error.downcast_ref::<Unfinished>().is_none(), "{error:#}");
     assert!(error.downcast_ref::<Error>().is_some(), "{error:#}");
-    error.to_string()
+    format!("{error:#}")
 }
 
 #[test]

@@ -199,7 +199,10 @@ fn a_restart_goes_on_to_the_same_bits() {
         ..args(&folder, &longer, "other")
     };
     let refused = run(&other, &AtomicBool::new(false)).unwrap_err();
-    assert_contains(refused, &["restart", "[1.2, 1, 1.2] m", "[1.3, 1, 1.2] m"]);
+    assert_contains(
+        format!("{refused:#}"),
+        &["restart", "[1.2, 1, 1.2] m", "[1.3, 1, 1.2] m"],
+    );
 }
 
 #[test]

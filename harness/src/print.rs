@@ -29,6 +29,14 @@ pub fn bytes(bytes: u64) -> String {
     format!("{value:.digits$} {}", units[at])
 }
 
+/// A time of a run with `decimals` digits after the point; a power of ten if it is long or short.
+pub fn time(seconds: f64, decimals: usize) -> String {
+    match seconds.abs() {
+        s if s == 0.0 || (0.01..1e7).contains(&s) => format!("{seconds:.decimals$} s"),
+        _ => format!("{seconds:.decimals$e} s"),
+    }
+}
+
 /// `seconds` in a unit that suits its size.
 pub fn duration(seconds: f64) -> String {
     match seconds {
@@ -36,7 +44,8 @@ pub fn duration(seconds: f64) -> String {
         s if s < 120.0 => format!("{s:.0} s"),
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s if s < 172_800.0 => format!("{:.1} h", s / 3600.0),
-        s => format!("{:.1} days", s / 86_400.0),
+        s if s < 8.64e10 => format!("{:.1} days", s / 86_400.0),
+        s => format!("{:.1e} days", s / 86_400.0),
     }
 }
 
@@ -56,7 +65,15 @@ pub fn percent(part: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::percent;
+    use super::{percent, time};
+
+    #[test]
+    fn long_and_short_times_have_a_power_of_ten() {
+        assert_eq!(time(0.0, 4), "0.0000 s");
+        assert_eq!(time(0.3, 4), "0.3000 s");
+        assert_eq!(time(1e300, 4), "1.0000e300 s");
+        assert_eq!(time(2e-6, 4), "2.0000e-6 s");
+    }
 
     #[test]
     fn percentages_have_the_digits_that_count() {

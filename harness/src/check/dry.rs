@@ -1,7 +1,10 @@
 //! Report on a scene of blocks alone.
 
 use super::{BlockFacts, lines::Lines, trial::Trial};
-use crate::{print::duration, run::SceneRun};
+use crate::{
+    print::{duration, time},
+    run::SceneRun,
+};
 use anyhow::{Context, Result};
 use serde::Serialize;
 
@@ -72,8 +75,10 @@ impl RockReport {
         lines.add(
             "time",
             format_args!(
-                "{} steps of {:.4e} s = {:.4} s",
-                self.steps, self.time_step, self.duration
+                "{} steps of {:.4e} s = {}",
+                self.steps,
+                self.time_step,
+                time(self.duration, 4)
             ),
         );
         lines.add(

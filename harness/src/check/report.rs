@@ -4,7 +4,7 @@ use super::{Accuracy, Immersion, lines::Lines, trial::Trial};
 use crate::{
     adapters::Adapter,
     bench::Work,
-    print::{bytes, duration},
+    print::{bytes, duration, time},
     run::{Coupling, SkippedWork},
 };
 use anyhow::Result;
@@ -379,8 +379,10 @@ impl Report {
         lines.add(
             "time",
             format_args!(
-                "{} steps of {:.4e} s = {:.4} s",
-                n.steps, n.time_step, n.duration
+                "{} steps of {:.4e} s = {}",
+                n.steps,
+                n.time_step,
+                time(n.duration, 4)
             ),
         );
         lines.add("τ", format_args!("{:.6}", n.tau));

@@ -3,7 +3,7 @@
 use super::{BlockFacts, lines::Lines, trial::Trial};
 use crate::{
     adapters::Adapter,
-    print::{bytes, duration},
+    print::{bytes, duration, time},
     run::SceneRun,
 };
 use riprap::sph::{Particle, ReferencePosition};
@@ -131,8 +131,11 @@ impl WaterReport {
         lines.add(
             "time",
             format_args!(
-                "{} steps of {:.4e} s = {:.4} s; acoustic steps of at most {:.4e} s",
-                self.steps, self.time_step, self.duration, self.acoustic_step
+                "{} steps of {:.4e} s = {}; acoustic steps of at most {:.4e} s",
+                self.steps,
+                self.time_step,
+                time(self.duration, 4),
+                self.acoustic_step
             ),
         );
         lines.warnings(&self.warnings);

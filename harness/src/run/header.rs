@@ -44,9 +44,9 @@ pub fn print_header(run: &SceneRun, summary: &Summary, folder: &Path, last: u64)
         );
     }
     eprintln!(
-        "  run       {} to step {last}, {:.6} s; into {}",
+        "  run       {} to step {last}, {}; into {}",
         run.step(),
-        last as f64 * run.time_step(),
+        print::time(last as f64 * run.time_step(), 6),
         folder.display()
     );
     for warning in &run.warnings {

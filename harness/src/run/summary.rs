@@ -11,6 +11,7 @@ use super::{
     walls::WallModelSummary,
     water::{Energies, WaterSummary},
 };
+use crate::print;
 use riprap::output::replace;
 use serde::Serialize;
 use std::{
@@ -155,9 +156,9 @@ impl fmt::Display for Summary {
         };
         writeln!(
             f,
-            "{end} at step {}, t = {:.6} s, after {}",
+            "{end} at step {}, t = {}, after {}",
             self.steps,
-            self.time,
+            print::time(self.time, 6),
             clock(self.seconds)
         )?;
         if let Some(lattice) = &self.lattice {

@@ -10,7 +10,7 @@ pub(super) fn read_stl(mut bytes: Vec<u8>) -> Result<Soup, String> {
         bytes[..HEADER].fill(0);
         (bytes, DVec3::ZERO)
     } else {
-        recentred(bytes, "vertex")
+        recentred(plain_stl(bytes), "vertex")
     };
     let mesh = stl_io::read_stl(&mut Cursor::new(bytes))
         .map_err(|e| format!("not a valid STL file: {e}; export it again"))?;
@@ -24,6 +24,29 @@ pub(super) fn read_stl(mut bytes: Vec<u8>) -> Result<Soup, String> {
             .map(|f| f.vertices.map(|v| v as u32))
             .collect(),
     ))
+}
+
+/// A text STL in lower case, with a name, without a byte order mark and without normals, which follow from the order of the vertices
+/// and some programs write as NaN; unchanged if it does not begin with `solid`.
+fn plain_stl(bytes: Vec<u8>) -> Vec<u8> {
+    let text = String::from_utf8_lossy(without_mark(&bytes)).to_ascii_lowercase();
+    if !text.trim_start().starts_with("solid") {
+        return bytes;
+    }
+    let lines = text.lines().map(|line| match line.trim() {
+        "solid" => "solid mesh",
+        line if line.starts_with("facet") => "facet normal 0 0 0",
+        line => line,
+    });
+    lines
+        .flat_map(|line| [line, "\n"])
+        .collect::<String>()
+        .into()
+}
+
+/// A text without a byte order mark.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes)
 }
 
 /// Bytes of free text before the number of triangles in binary STL.
@@ -89,7 +112,10 @@ fn recentred(bytes: Vec<u8>, keyword: &str) -> (Vec<u8>, DVec3) {
 }
 
 pub(super) fn read_obj(bytes: Vec<u8>) -> Result<Soup, String> {
-    let (bytes, origin) = recentred(bytes, "v");
+    // A backslash continues a line.
+    let text = String::from_utf8_lossy(without_mark(&bytes));
+    let text = text.replace("\\\r\n", " ").replace("\\\n", " ");
+    let (bytes, origin) = recentred(text.into_bytes(), "v");
     let options = tobj::LoadOptions {
         triangulate: true,
         ..Default::default()

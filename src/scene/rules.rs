@@ -5,6 +5,7 @@ use std::collections::HashSet;
 use super::Domain;
 use crate::error::{Error, Result};
 use crate::formula::Formula;
+use glam::DVec3;
 
 /// Longest name: leaves room for a number and an extension in the 255 bytes of a file name.
 const LONGEST_NAME: usize = 100;
@@ -45,7 +46,7 @@ pub(super) fn not_negative(key: impl Into<String>, value: f64, unit: &str) -> Re
 pub(super) fn direction(key: impl Into<String>, direction: &[f64; 3]) -> Result<()> {
     let key = key.into();
     finite(key.as_str(), direction)?;
-    if direction.iter().all(|c| *c == 0.0) {
+    if DVec3::from(*direction).try_normalize().is_none() {
         return refuse(
             key,
             "has no direction; give a vector other than 0, such as [0, 0, 1]",

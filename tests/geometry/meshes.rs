@@ -89,6 +89,30 @@ fn convex(shape: &Shape) -> Vec<(&Polyhedron, DVec3)> {
     parts.collect()
 }
 
+/// Capitals, no name, a byte order mark, normals that are no numbers, and lines of OBJ that go on.
+#[test]
+fn text_meshes_of_other_programs_are_read() {
+    let all = triangles(&Polyhedron::cuboid(DVec3::ONE).unwrap(), |v| v);
+    let (stl, obj) = (stl(&all), obj(&mesh(&all)));
+    let nameless = stl.replace("solid rock", "solid");
+    let variants = [
+        ("capitals.stl", stl.to_uppercase()),
+        ("mark.stl", format!("\u{feff}{stl}")),
+        (
+            "normals.stl",
+            stl.replace("normal 0 0 0", "normal nan -nan NaN"),
+        ),
+        ("windows.stl", nameless.replace('\n', "\r\n")),
+        ("nameless.stl", nameless),
+        ("mark.obj", format!("\u{feff}{obj}")),
+        ("long.obj", obj.replace("f 1 ", "f \\\n1 ")),
+    ];
+    for (name, text) in variants {
+        let (shape, _) = Shape::read(&file(name, &text), 1.0).expect(name);
+        assert_relative(shape.volume(), 1.0, 1e-6);
+    }
+}
+
 #[test]
 fn a_convex_mesh_is_one_polyhedron_with_its_faces_merged() {
     let solid = Polyhedron::dodecahedron(0.2).unwrap();

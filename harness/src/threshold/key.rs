@@ -51,6 +51,14 @@ impl Key {
         })
     }
 
+    /// The first name of the key.
+    pub fn section(&self) -> &str {
+        match self.steps.first() {
+            Some(Step::Name(name)) => name,
+            _ => "",
+        }
+    }
+
     /// Refuses a key whose value the loads of the flow do not grow with the square of.
     pub fn check_velocity(&self) -> Result<()> {
         let is_velocity = |step: &Step| match step {

@@ -116,7 +116,9 @@ pub fn run(args: &Args, stop: &AtomicBool) -> Result<Report> {
         .settle
         .map(|time| (time, folder.join("settled.riprap")));
     if let Some((time, path)) = &settled {
-        trial::settle(open(args.from)?, *time, path)
+        let start = open(args.from)?;
+        trial::check_settled(&start, &open(args.to)?, &keys)?;
+        trial::settle(start, *time, path)
             .with_context(|| format!("while the blocks settled at {}", args.from))?;
     }
     let settled = settled.as_ref().map(|(_, path)| path.as_path());

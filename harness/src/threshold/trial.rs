@@ -1,6 +1,6 @@
 //! One run of the scene, until a block moves.
 
-use super::{Args, Equilibrium, equilibrium::Loads};
+use super::{Args, Equilibrium, Key, equilibrium::Loads};
 use crate::run::{Batch, SceneRun};
 use anyhow::Result;
 use glam::DVec3;
@@ -20,6 +20,9 @@ const SHARE: f64 = 0.01;
 /// Fraction of that displacement from which a block that still moves is under way: contacts that take up their load move it by
 /// less.
 pub(super) const BEGUN: f64 = 0.1;
+
+/// Sections of a scene that hold for its start alone.
+const STARTS: [&str; 2] = ["initial", "water"];
 
 /// Criterion for motion.
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +87,33 @@ pub struct Trial {
     pub steps: u64,
     /// Duration, s.
     pub seconds: f64,
+}
+
+/// Refuses `keys` that change where the blocks, or the fluid alone, start: between the runs `from` and `to`. The settled state would
+/// replace that.
+pub fn check_settled(from: &SceneRun, to: &SceneRun, keys: &[Key]) -> Result<()> {
+    let starts = |run: &SceneRun| -> Vec<_> {
+        let blocks = run.rock().map(|rock| rock.setup.blocks.iter());
+        let start = |block: &rock::Block| {
+            let place = (block.centre, block.rotation);
+            let motion = (block.velocity, block.spin);
+            (block.name.clone(), block.shape.clone(), place, motion)
+        };
+        blocks.into_iter().flatten().map(start).collect()
+    };
+    let (before, after) = (starts(from), starts(to));
+    let mut pairs = before.iter().zip(&after);
+    let what = match pairs.find(|(before, after)| before != after) {
+        Some(((name, ..), _)) => format!("shape, position or velocity of block `{name}`"),
+        None if before.len() != after.len() => "the number of blocks".into(),
+        None if keys.iter().all(|key| STARTS.contains(&key.section())) => "the fluid".into(),
+        None => return Ok(()),
+    };
+    let message = format!(
+        "the key changes {what} at the start of the scene, and each trial begins with the settled state instead; leave \
+         --settle out"
+    );
+    Err(Error::argument("--settle", message).into())
 }
 
 /// Runs `run` for `time` seconds and writes its state.

@@ -91,11 +91,16 @@ pub fn json(path: &Path) -> Value {
     serde_json::from_str(&fs::read_to_string(path).unwrap()).unwrap()
 }
 
+/// The Python of `harness/python.sh`.
+pub fn python() -> PathBuf {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    target.join("python/bin/python")
+}
+
 /// The content of a `.vtu`, `.vtp` or `.pvd` as read by VTK.
 pub fn read_with_vtk(path: &Path) -> Value {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/run/read_blocks.py");
-    let output = Command::new(target.join("python/bin/python"))
+    let output = Command::new(python())
         .arg(script)
         .arg(path)
         .output()

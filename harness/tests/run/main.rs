@@ -10,6 +10,7 @@ mod fixture;
 #[cfg(unix)]
 mod interrupted;
 mod lattice;
+mod python;
 mod sph;
 mod statistics;
 mod threshold;

@@ -121,6 +121,26 @@ fn a_criterion_of_speed_and_a_settled_start_give_the_same_threshold() {
     assert!(folder.join("out/settled.riprap").is_file());
 }
 
+/// The settled state would replace what these keys change.
+#[test]
+fn keys_of_the_start_are_refused_with_a_settled_start() {
+    let folder = folder("threshold_start");
+    for (key, block) in [
+        ("blocks.cube.position[2]", "`cube`"),
+        ("blocks.cube.size[2]", "`cube`"),
+        ("blocks.cube.velocity[0]", "`cube`"),
+        ("solids.plane.max[0]", "`plane`"),
+    ] {
+        let moving = SLIDE.replacen("[0, 0, 0.05]", "[0, 0, 0.05]\nvelocity = [0, 0, 0]", 1);
+        let args = Args {
+            settle: Some(0.01),
+            ..args(&folder, &moving, &[key], [0.05, 0.06, 0.001])
+        };
+        let refused = run(&args, &AtomicBool::new(false)).unwrap_err();
+        assert_contains(refused, &["--settle: the key changes", block]);
+    }
+}
+
 #[test]
 fn a_block_that_was_under_way_at_the_end_is_said() {
     let folder = folder("threshold_under_way");

@@ -113,3 +113,37 @@ fn an_outlet_holds_hydrostatic_pressure_where_water_is_heavy() {
         }
     }
 }
+
+/// An outlet that lets waves out reflects a part of a slow oscillation: without reflection its amplitude would be that of the inlet
+/// everywhere, and at an outlet of constant pressure cos(kL/4)/cos(kL) = 1.2 times that, for kL = 0.6.
+#[test]
+fn an_outlet_reflects_a_part_of_a_slow_oscillation() {
+    const RATE: f64 = 0.866;
+    let scene = format!(
+        r#"
+        domain = {{ size = [8, 0.4, 0.4], cell = 0.1 }}
+        fluid.viscosity = 0.01
+        numerics = {{ time_step = 0.005, velocity_scale = 1.1 }}
+        initial.velocity = [1, 0, 0]
+        run.steps = 1
+        [boundaries]
+        x_min = {{ kind = "velocity", velocity = ["1 + 0.1*sin({RATE}*t)", 0, 0] }}
+        x_max = {{ kind = "pressure" }}
+        "#
+    );
+    let rig = Rig::new();
+    let mut simulation = rig.simulation(&kit::scene::read(&scene).unwrap()).unwrap();
+    let period = std::f64::consts::TAU / (RATE * 0.005);
+    rig.wait(simulation.advance((5.0 * period) as u64)).unwrap();
+    let [mut least, mut most] = [f32::INFINITY, f32::NEG_INFINITY];
+    for _ in 0..20 {
+        rig.wait(simulation.advance((period / 20.0) as u64))
+            .unwrap();
+        let image = image(&rig, &mut simulation);
+        // At three quarters of the length.
+        let velocity = image.array("velocity").unwrap().values[3 * ((4 + 1) * 80 + 60)];
+        (least, most) = (least.min(velocity), most.max(velocity));
+    }
+    let amplitude = 0.5 * (most - least) / 0.1;
+    assert!((1.1..1.3).contains(&amplitude), "{amplitude}");
+}

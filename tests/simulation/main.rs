@@ -11,6 +11,7 @@ mod sph_restart;
 mod static_surfaces;
 mod statistics;
 mod synthetic_turbulence;
+mod thin_walls;
 
 use kit::Rig;
 use riprap::{scene::Scene, simulation::probe::Gauge};

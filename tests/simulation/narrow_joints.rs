@@ -66,7 +66,12 @@ fn over_cubic_law(rig: &Rig, width: f64, offset: f64, tau: f64) -> f64 {
 #[test]
 fn joints_of_a_few_cells_carry_the_documented_discharge() {
     let rig = Rig::new();
-    for (width, [least, most]) in [(2.0, [1.3, 1.7]), (3.0, [1.1, 1.3]), (5.0, [1.0, 1.1])] {
+    for (width, [least, most]) in [
+        (2.0, [1.3, 1.7]),
+        (3.0, [1.1, 1.3]),
+        (5.0, [1.0, 1.1]),
+        (6.0, [1.0, 1.1]),
+    ] {
         for offset in [0.25, 0.5] {
             for tau in [0.6, 1.0] {
                 let found = over_cubic_law(&rig, width, offset, tau);

@@ -236,6 +236,7 @@ fn check_thin_blocks(
                 .all(|outward| is_reached(part.centre + half * outward, outward))
         })
     };
+    // Pieces of terrain reach down to its lower face; only their sides are close to each other.
     let is_terrain = |index: usize| {
         let solid = scene.solids.get(index.wrapping_sub(blocks.in_fluid));
         solid.is_some_and(|solid| matches!(solid.shape, Shape::Terrain { .. }))

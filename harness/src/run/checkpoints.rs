@@ -9,7 +9,7 @@ use anyhow::Result;
 use riprap::Error;
 use std::{
     fs,
-    path::{Path, PathBuf},
+    path::{Path, PathBuf, absolute},
     time::Instant,
 };
 use toml::{Table, Value};
@@ -187,12 +187,8 @@ pub fn with_differences(error: Error, path: &Path, text: &str) -> anyhow::Error 
 /// A warning if `folder` holds the output of another scene than `text` and the checkpoint at `path` lies elsewhere: the rows of
 /// its tables up to the step of the checkpoint stay.
 pub fn other_tables(path: &Path, folder: &Path, text: &str) -> Option<String> {
-    let parent = path.parent().unwrap_or_else(|| Path::new(""));
-    let parent = match parent.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => parent,
-    };
-    if fs::canonicalize(parent).ok() == fs::canonicalize(folder).ok() {
+    let [path, own] = [path, folder].map(|path| absolute(path).ok());
+    if path?.parent() == own.as_deref() {
         return None;
     }
     let found = named_differences(&folder.join("checkpoint.toml"), text)?;
